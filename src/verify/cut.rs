@@ -44,6 +44,19 @@ impl Rapid {
     pub fn is_at_machine(&self, axes: u8) -> bool {
         self.unknown & !self.kept & axes != 0
     }
+
+    /// The end of the rapid in a message: the known ones of its coordinates.
+    pub fn text(&self) -> String {
+        match 0b111 & !self.unknown {
+            0 => "a machine position".to_owned(),
+            known => shown(&self.to, known),
+        }
+    }
+
+    /// The height. A height that is known only at the machine is infinite, so that no known height counts as above it.
+    pub fn height(&self) -> f64 {
+        if self.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { self.to[DEPTH] }
+    }
 }
 
 /// State of the spindle during a rapid.

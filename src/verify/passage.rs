@@ -51,6 +51,17 @@ impl Entry {
     }
 }
 
+/// A machine position of an axis that the program gives as a number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AtMachine {
+    /// The number, measured from the zero of the program.
+    pub at: f64,
+    /// The reference point ([`Simulator::reference_point`](crate::nc::Simulator::reference_point)).
+    pub point: usize,
+    /// The register of the active tool length, if a setting of the machine decides whether the length counts.
+    pub length: Option<f64>,
+}
+
 /// The height of the tool in the last frame in which it is known.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Standing {
@@ -115,10 +126,8 @@ pub(super) struct Passage {
     pub turrets: Vec<u8>,
     /// Axes that went to a machine position that the program gives as a number.
     pub homes: u8,
-    /// For X, Y, Z, A, B and C: these positions in their order, each with its reference point
-    /// ([`Simulator::reference_point`](crate::nc::Simulator::reference_point)). Positions are measured from the zero of the
-    /// program.
-    pub machine: [Vec<(usize, f64)>; 6],
+    /// For X, Y, Z, A, B and C: these positions in their order.
+    pub machine: [Vec<AtMachine>; 6],
     /// Whether the job's path moves away from the axis of its hole.
     pub aside: bool,
     /// Whether the job's path moved away from the axis of its hole before the last change of the frame.
@@ -194,14 +203,16 @@ impl Passage {
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
-    /// Records a rapid of these axes to a machine position, measured from this reference point.
-    pub fn reaches_machine(&mut self, axes: u8, point: usize, to: &Place) {
+    /// Records a rapid of these axes to a machine position, measured from this reference point. `length`: the axis of
+    /// the tool length and its register, if the length may count in this position.
+    pub fn reaches_machine(&mut self, axes: u8, point: usize, to: &Place, length: Option<(usize, f64)>) {
         self.homes |= axes;
         for (axis, places) in self.machine.iter_mut().enumerate().filter(|(axis, _)| axes & 1 << axis != 0) {
+            let length = length.filter(|(along, _)| *along == axis).map(|(_, register)| register);
             // an axis stays at its machine position while other axes move
-            let stays = places.last().is_some_and(|(_, last)| *last == to[axis]);
+            let stays = places.last().is_some_and(|last| last.at == to[axis] && last.length == length);
             if point != 0 || !stays {
-                places.push((point, to[axis]));
+                places.push(AtMachine { at: to[axis], point, length });
             }
         }
     }
@@ -342,7 +353,7 @@ impl Passage {
         let made = self.legs.iter().rposition(|leg| leg.from < moved).unwrap_or_default();
         let [own, since @ ..] = self.legs.get(made..=leg)? else { return None };
         let stays = |leg: &Leg| leg.frame.tool == own.frame.tool;
-        let height = if corner.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { corner.to[DEPTH] };
+        let height = corner.height();
         let in_cut = self.after_cut && moved == 0;
         since.iter().all(stays).then_some(Standing { work: own.frame.work, height, in_cut })
     }
@@ -426,5 +437,5 @@ impl Passage {
 }
 
 fn is_below(corner: &Rapid, height: f64) -> bool {
-    corner.unknown & 1 << DEPTH == 0 && corner.to[DEPTH] < height
+    corner.height() < height
 }

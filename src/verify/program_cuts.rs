@@ -51,15 +51,25 @@ pub(super) fn both_shown(a: &Place, b: &Place) -> [String; 2] {
     [a, b].map(|place| shown(place, 0b111 | apart))
 }
 
-/// The first difference between two cuts and the paths to these cuts.
-pub(super) fn differs(
-    cut: &Cut,
-    found: &Cut,
-    way: Compared,
-    tolerance: f64,
-    names: Names,
-    program: &Program<'_>,
-) -> Option<String> {
+/// The difference between the paths to a cut.
+pub(super) fn leads_otherwise(way: Compared) -> Option<String> {
+    match way {
+        Compared::Same | Compared::AsGood { .. } | Compared::Turning => None,
+        Compared::Lower(low) => {
+            Some(format!("a rapid goes to {}, which is lower than in the old program", low.to.text()))
+        }
+        Compared::Elsewhere(to) => {
+            Some(format!("the rapids near {} follow another path than in the old program", to.text()))
+        }
+        Compared::Turned(to, axes) => Some(format!(
+            "before the tool is retracted, a rapid to {} turns the part otherwise than in the old program",
+            shown(&to, 0b111 | axes)
+        )),
+    }
+}
+
+/// The first difference between two cuts.
+pub(super) fn differs(cut: &Cut, found: &Cut, tolerance: f64, names: Names, program: &Program<'_>) -> Option<String> {
     let near = |a: f64, b: f64| (a - b).abs() <= tolerance.max(1e-9 * a.abs());
     if cut.unknown != found.unknown {
         let [new, old] = [found, cut].map(|cut: &Cut| match cut.unknown {
@@ -77,22 +87,6 @@ pub(super) fn differs(
     if !same(&cut.from, &found.from, ALL, tolerance) {
         let [new, old] = both_shown(&found.from, &cut.from);
         return Some(format!("a cut begins at {new}, but at {old} in the old program"));
-    }
-    match way {
-        Compared::Same | Compared::AsGood { .. } | Compared::Turning => {}
-        Compared::Lower(low) => {
-            let to = low.to.to;
-            return Some(format!("a rapid goes to {}, which is lower than in the old program", shown(&to, 0b111)));
-        }
-        Compared::Elsewhere(to) => {
-            return Some(format!("the rapids near {} follow another path than in the old program", shown(&to, 0b111)));
-        }
-        Compared::Turned(to, axes) => {
-            return Some(format!(
-                "before the tool is retracted, a rapid to {} turns the part otherwise than in the old program",
-                shown(&to, 0b111 | axes)
-            ));
-        }
     }
     match (cut.what, found.what) {
         (What::Arc(a), What::Arc(b)) => {

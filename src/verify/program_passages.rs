@@ -2,7 +2,7 @@
 
 use super::cut::{ALL, Rapid, Spin, number, same, same_dwell};
 use super::measured::{self, Across, Between, Frames, Level, Other};
-use super::passage::Mark;
+use super::passage::{AtMachine, Mark, Standing};
 use super::program::Program;
 use super::program_cuts::{Names, both_shown};
 use super::tables::ANGLE;
@@ -36,14 +36,17 @@ fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
 fn entries(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let pairs = old.passage.entries().zip(new.passage.entries()).filter(|(_, now)| now.crosses());
     pairs.into_iter().find_map(|(before, now)| {
-        let (was, is) = (before.height?, now.height?);
-        let is_lower = was.work == is.work && is.height < was.height - tolerance;
-        let text = |height: f64| if height.is_finite() { format!("Z{}", number(height)) } else { "home".to_owned() };
-        is_lower.then(|| {
-            let [is, was] = [is, was].map(|standing| text(standing.height));
-            format!("the work offset changes with the tool at {is}, but at {was} in the old program")
-        })
+        let [was, is] = lower(before.height, now.height, tolerance)?;
+        Some(format!("the work offset changes with the tool at {is}, but at {was} in the old program"))
     })
+}
+
+/// The heights of the tool in the old and in the new program, if the tool is lower in the new program. Numbers of
+/// heights are compared only in the same work offset.
+fn lower(old: Option<Standing>, new: Option<Standing>, tolerance: f64) -> Option<[String; 2]> {
+    let (was, is) = (old?, new?);
+    let text = |height: f64| if height.is_finite() { format!("Z{}", number(height)) } else { "home".to_owned() };
+    (was.work == is.work && is.height < was.height - tolerance).then(|| [was, is].map(|standing| text(standing.height)))
 }
 
 /// Compares the coordinate frames (G52, G92, G10, TRANS, TRANS DATUM) from which both programs measure positions.
@@ -143,7 +146,8 @@ fn tool_data(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
         .then(|| format!("the tool data set by G10 before this cut are {now}, but {before} in the old program"))
 }
 
-/// Compares stops and dwells between two cuts.
+/// Compares stops and dwells between two cuts, and the height of the tool there. The new program must be at least as
+/// high.
 fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let stop = |kind: StopKind| if kind == StopKind::Program { "M0" } else { "M1" };
     let stops = |program: &Program<'_>| -> Vec<String> {
@@ -165,12 +169,17 @@ fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
     let pairs = || old.passage.waits.iter().zip(&new.passage.waits);
     let same = old.passage.waits.len() == new.passage.waits.len()
         && pairs().all(|(a, b)| same_dwell(a.what, b.what) && in_cut(old, a) == in_cut(new, b));
-    (!same).then(|| {
-        format!(
-            "the dwells before this cut are {}, but {} in the old program",
-            listed(&waits(new)),
-            listed(&waits(old))
-        )
+    if !same {
+        let [now, before] = [new, old].map(|program| listed(&waits(program)));
+        return Some(format!("the dwells before this cut are {now}, but {before} in the old program"));
+    }
+    let [before, now] = [&old.passage, &new.passage];
+    let stops = before.stops.iter().zip(&now.stops);
+    let lower_stop = stops.map(|(a, b)| (stop(b.what), lower(before.height_at(a), now.height_at(b), tolerance)));
+    let lower_wait = pairs().map(|(a, b)| ("a dwell", lower(before.height_at(a), now.height_at(b), tolerance)));
+    lower_stop.chain(lower_wait).find_map(|(what, heights)| {
+        let [was, is] = heights?;
+        Some(format!("at {what} before this cut, the tool is at {is}, but at {was} in the old program"))
     })
 }
 
@@ -224,18 +233,21 @@ fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
 
 /// Compares the machine positions and reference points along each axis for which both programs have them.
 fn machine_positions(old: &Program<'_>, new: &Program<'_>, names: Names, tolerance: f64) -> Option<String> {
-    let near = |a: &(usize, f64), b: &(usize, f64)| a.0 == b.0 && (a.1 - b.1).abs() <= tolerance;
-    let alike = |a: &[(usize, f64)], b: &[(usize, f64)]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a, b));
+    let near = |(a, b): (&AtMachine, &AtMachine)| {
+        (a.point, a.length) == (b.point, b.length) && (a.at - b.at).abs() <= tolerance
+    };
+    let alike = |a: &[AtMachine], b: &[AtMachine]| a.len() == b.len() && a.iter().zip(b).all(near);
     let [before, now] = [old, new].map(|program| &program.passage.machine);
     let axis = (0..6).find(|&axis| {
         let (a, b) = (&before[axis], &now[axis]);
         !a.is_empty() && !b.is_empty() && !alike(a, b)
     })?;
-    let text = |places: &[Vec<(usize, f64)>; 6]| {
+    let text = |places: &[Vec<AtMachine>; 6]| {
         let name = ["X", "Y", "Z", "A", "B", "C"][axis];
-        let words = places[axis].iter().map(|(point, value)| match point {
-            0 => format!("{name}{}", number(*value)),
-            point => format!("{name} of reference point {}", point + 1),
+        let words = places[axis].iter().map(|AtMachine { at, point, length }| match (point, length) {
+            (0, None) => format!("{name}{}", number(*at)),
+            (0, Some(register)) => format!("{name}{} with D{} active", number(*at), number(*register)),
+            (point, _) => format!("{name} of reference point {}", point + 1),
         });
         listed(&words.collect::<Vec<_>>())
     };

@@ -10,7 +10,7 @@ use super::folded::{begin_alike, hole, rounded_alike};
 use super::measured::Frames;
 use super::passage::TOO_LONG;
 use super::program::{Doubt, Program};
-use super::program_cuts::{Names, differs};
+use super::program_cuts::{Names, differs, leads_otherwise};
 use super::program_passages::{between, endings, frames_of_rapids, leaving, switching};
 use super::rapid_path::{RapidPath, turn_alike, turned_low};
 use super::tails::leaves_low;
@@ -145,10 +145,11 @@ impl Pair<'_> {
         if names.by_order && rounded_alike(cut.state.speed, found.state.speed) && cut.state.speed != found.state.speed {
             alike.state = State { speed: cut.state.speed, ..*found.state }.into();
         }
-        let message = differs(cut, &alike, way, tolerance, names, &self.a)
+        let message = differs(cut, &alike, tolerance, names, &self.a)
             .or_else(|| between(&self.a, &self.b, names, tolerance))
             .or_else(|| switching(&self.a, &self.b, names))
-            .or_else(|| self.frames(true));
+            .or_else(|| self.frames(true))
+            .or_else(|| leads_otherwise(way));
         if message.is_some() {
             return Ok(message);
         }
@@ -225,7 +226,7 @@ impl Pair<'_> {
 /// different.
 fn higher(other: Compared) -> Compared {
     match other {
-        Compared::Lower(low) => Compared::Elsewhere(low.to.to),
+        Compared::Lower(low) => Compared::Elsewhere(low.to),
         other => other,
     }
 }

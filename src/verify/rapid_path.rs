@@ -110,8 +110,7 @@ impl RapidPath {
 
     /// Whether all rapids across are above this height.
     pub fn stays_above(&self, height: f64) -> bool {
-        let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
-        across(&self.corners, 0.0).all(|(a, b)| [a, b].iter().all(|corner| !known(corner) || corner.to[DEPTH] > height))
+        across(&self.corners, 0.0).all(|(a, b)| a.height() > height && b.height() > height)
     }
 }
 
@@ -126,11 +125,10 @@ pub(super) fn turn_alike(a: &[Rapid], b: &[Rapid]) -> bool {
 /// The program's first rapid that turns the part through angles through which the job does not turn it on this path:
 /// the end of the rapid, and as bits the axes that turn it. Above the start of the path, and not below the job's greatest height, the part may turn in any way.
 pub(super) fn turned_low(job: &[Rapid], program: &[Rapid], tolerance: f64) -> Option<(Place, u8)> {
-    let start = job.first()?.to[DEPTH];
-    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(start, f64::max);
+    let start = job.first()?.height();
+    let highest = highest(job);
     let is_free = |a: &Rapid, b: &Rapid| {
-        let height = |rapid: &Rapid| if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] };
-        let low = height(a).min(height(b));
+        let low = a.height().min(b.height());
         low >= highest - tolerance && low > start + tolerance
     };
     let turns_as_job = |a: &Rapid, b: &Rapid, axis: usize| {
@@ -147,6 +145,28 @@ pub(super) fn turned_low(job: &[Rapid], program: &[Rapid], tolerance: f64) -> Op
         (pair[1].to, otherwise.map(|axis| 1 << axis).sum())
     });
     low.into_iter().find(|(_, axes)| *axes != 0)
+}
+
+/// The greatest known height of a path, or infinity if no height is known.
+pub(super) fn highest(corners: &[Rapid]) -> f64 {
+    known_heights(corners).reduce(f64::max).unwrap_or(f64::INFINITY)
+}
+
+/// The lowest height of the moves across of a path. Without moves across, the greatest height.
+pub(super) fn crossing(corners: &[Rapid], tolerance: f64) -> f64 {
+    let heights = across(corners, tolerance).map(|(a, b)| a.height().min(b.height()));
+    heights.reduce(f64::min).unwrap_or_else(|| highest(corners))
+}
+
+/// The lowest height of the moves across to machine positions, if there are such moves.
+pub(super) fn home_crossing(corners: &[Rapid], tolerance: f64) -> Option<f64> {
+    let home = across(corners, tolerance).filter(|(_, to)| to.unknown & ACROSS != 0);
+    home.map(|(a, b)| a.height().min(b.height())).reduce(f64::min)
+}
+
+/// The heights of the corners whose height is not known only at the machine.
+pub(super) fn known_heights<'a>(corners: impl IntoIterator<Item = &'a Rapid>) -> impl Iterator<Item = f64> {
+    corners.into_iter().map(Rapid::height).filter(|height| height.is_finite())
 }
 
 /// The moves between two corners, without the moves that change only Z.

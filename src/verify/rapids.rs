@@ -78,7 +78,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         }
         Compared::Elsewhere(to) => {
             s.found(Code::PV001, line, "check the words that the form prints for the rapids here", || {
-                format!("a rapid goes to {}, but the job does not go to this position", shown(&to, 0b111))
+                format!("a rapid goes to {}, but the job does not go to this position", to.text())
             });
         }
     }
@@ -318,7 +318,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
             job.set(None, own, tolerance);
             program.set(None, rapids, tolerance);
             match compare_way(job, program, false, tolerance) {
-                Compared::Lower(Low { to: Rapid { to, .. }, .. }) | Compared::Elsewhere(to) => {
+                Compared::Lower(Low { to: Rapid { to, .. }, .. }) | Compared::Elsewhere(Rapid { to, .. }) => {
                     lower = lower.or(Some(to));
                     false
                 }

@@ -1,37 +1,38 @@
 //! Compares the program's path after the last cut with the job's path.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
-use super::rapid_path::{RapidPath, across};
-use super::ways::{ROUNDED_ACROSS, goes_upright_elsewhere, height, is_over};
+use super::cut::{ACROSS, ALL, Place, Rapid, same};
+use super::rapid_path::{RapidPath, across, crossing, highest, home_crossing, known_heights};
+use super::ways::{ROUNDED_ACROSS, goes_upright_elsewhere, is_over};
 
 /// Checks the program's path after the last cut. No move across may be lower than the job's moves across. Below the
 /// job's greatest height, a move across must be above one of the job's rapids. The tool may go down only where the job
 /// goes down.
 pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<(Place, f64)> {
-    let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
-    let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
-    let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
+    let (highest, crossing) = (highest(&job.corners), crossing(&job.corners, tolerance));
     // if the job does not move across, rapids to machine positions must be higher than its last height
     let stays = across(&job.corners, tolerance).next().is_none() && !job.corners.is_empty();
+    let home = home_crossing(&job.corners, tolerance);
     let low = across(&program.corners, ROUNDED_ACROSS * tolerance).find(|(a, b)| {
-        let at = height(a).min(height(b));
+        let at = a.height().min(b.height());
         let is_elsewhere = at < highest - tolerance && !is_over(a, b, &job.corners, tolerance);
-        at < crossing - tolerance || is_elsewhere || stays && b.unknown & ACROSS != 0 && at < crossing + tolerance
+        let goes_home_low = home.map_or(stays && at < crossing + tolerance, |home| at < home - tolerance);
+        at < crossing - tolerance || is_elsewhere || b.unknown & ACROSS != 0 && goes_home_low
     });
     if let Some((_, b)) = low {
         return Some((b.to, crossing));
     }
     if let Some(to) = goes_upright_elsewhere(&job.corners, &program.corners, highest, tolerance) {
-        return Some((to, highest));
+        return Some((to.to, highest));
     }
     // The tool may go down only where the job goes down, and not lower. Elsewhere it must not be below the job's moves
     // across. If the job only goes up, the tool must not go down.
-    let lowest = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
+    let after_start = || job.corners.iter().skip(1);
+    let lowest = known_heights(after_start()).reduce(f64::min).unwrap_or(highest);
     let floor = |at: &Rapid| {
         let there = |own: &&Rapid| {
             at.unknown & 0b11 != 0 || own.unknown & 0b11 != 0 || same(&own.to, &at.to, ACROSS, tolerance)
         };
-        let own = job.corners.iter().skip(1).filter(there).map(|own| own.to[DEPTH]).reduce(f64::min);
+        let own = known_heights(after_start().filter(there)).reduce(f64::min);
         own.unwrap_or(lowest.max(crossing))
     };
     // a cycle of the control may leave the hole higher than the job; the program may then go straight down to the job's
@@ -45,7 +46,7 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     };
     let mut pairs = program.corners.windows(2).enumerate();
     let dives = pairs.find(|(at, pair)| {
-        height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor(&pair[1]) - tolerance && !comes_back(*at)
+        pair[1].height() < pair[0].height() && pair[1].height() < floor(&pair[1]) - tolerance && !comes_back(*at)
     });
     dives.map(|(_, pair)| (pair[1].to, floor(&pair[1])))
 }

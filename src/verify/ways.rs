@@ -1,7 +1,7 @@
 //! Compares the program's path from one cut to the next with the job's path.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, number, same, shown, without_turns};
-use super::rapid_path::{RapidPath, across, turn_alike, turned_low};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, number, same, without_turns};
+use super::rapid_path::{RapidPath, across, crossing, highest, home_crossing, known_heights, turn_alike, turned_low};
 
 /// The result of comparing the program's path with the job's path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub(super) enum Compared {
     /// The path is lower than the job's path.
     Lower(Low),
     /// The path moves across to this position, to which the job does not go.
-    Elsewhere(Place),
+    Elsewhere(Rapid),
     /// At the height of the cuts, a rapid to this position turns the part by these axes in another direction than the
     /// job, or by more turns.
     Turned(Place, u8),
@@ -39,10 +39,7 @@ impl Low {
     pub fn message(&self) -> String {
         let Rapid { to, unknown, .. } = self.to;
         let (begin, limit) = (number(self.height), number(self.limit));
-        let end = match 0b111 & !unknown {
-            0 => "a machine position".to_owned(),
-            known => shown(&to, known),
-        };
+        let end = self.to.text();
         if begin >= limit {
             return format!("a rapid goes down to {end}, but the job goes down at another X or Y here");
         }
@@ -97,12 +94,13 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
     };
     // at the X and Y of its first position, the job may go down before it goes across
     let over_it = job.corners.iter().take_while(|corner| same(&corner.to, &first.to, ACROSS, tolerance));
-    let lowest = over_it.map(|corner| corner.to[DEPTH]).fold(first.to[DEPTH], f64::min);
+    let limit = known_heights([first]).next().unwrap_or_else(|| highest(&job.corners));
+    let lowest = known_heights(over_it).fold(limit, f64::min);
     let there = |exactly: u8| {
         program.corners.iter().position(|corner| {
             corner.unknown & !first.unknown == 0
                 && same(&corner.to, &first.to, exactly & !first.unknown, tolerance)
-                && corner.to[DEPTH] >= lowest - tolerance
+                && corner.height() >= lowest - tolerance
         })
     };
     let Some(arrived) = there(ALL).or_else(|| there(ACROSS)) else {
@@ -112,21 +110,21 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
     let low = program.corners[..=arrived]
         .iter()
         .skip(usize::from(program.begun))
-        .find(|corner| height(corner) < lowest - tolerance);
-    let crosses = across(&program.corners[..=arrived], tolerance)
-        .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
+        .find(|corner| corner.height() < lowest - tolerance);
+    let crosses =
+        across(&program.corners[..=arrived], tolerance).find(|(a, b)| a.height().min(b.height()) < limit - tolerance);
     // before the tool comes down, X or Y, if known, must be that of the first position; if both are unknown, the
     // program printed the height first
     let astray = |corner: &&Rapid| {
         corner.unknown & 0b11 != 0b11
-            && height(corner) <= first.to[DEPTH] + tolerance
+            && corner.height() <= limit + tolerance
             && !same(&corner.to, &first.to, 0b11 & !first.unknown, tolerance)
     };
     let astray = program.corners[..arrived].iter().skip(usize::from(program.begun)).find(astray);
-    let at_end = |corner: &Rapid| (*corner, height(corner));
-    let crosses = crosses.map(|(a, b)| (*b, height(a).min(height(b))));
+    let at_end = |corner: &Rapid| (*corner, corner.height());
+    let crosses = crosses.map(|(a, b)| (*b, a.height().min(b.height())));
     if let Some((to, height)) = low.map(at_end).or(crosses).or(astray.map(at_end)) {
-        return Compared::Lower(Low { to, height, limit: first.to[DEPTH] });
+        return Compared::Lower(Low { to, height, limit });
     }
     compare_corners(&job.corners, &program.corners[arrived..], true, 0, tolerance)
 }
@@ -153,11 +151,6 @@ fn leaves_turning_otherwise(job: &[Rapid], program: &[Rapid], tolerance: f64) ->
     !left_before && !spins(left, first)
 }
 
-/// The height of a corner. A height that is known only at the machine is infinite.
-pub(super) fn height(rapid: &Rapid) -> f64 {
-    if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] }
-}
-
 /// Where a position lies on a straight rapid: the fraction of the rapid from 0 to 1, the point at this fraction, and
 /// the lowest height of the rapid at this point if the positions are rounded. `None`: the position is not on the rapid.
 fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64, Place, f64)> {
@@ -182,18 +175,19 @@ pub(super) fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bo
     if (a.unknown | b.unknown) & ACROSS != 0 {
         return across(job, tolerance).any(|(c, d)| is(a, c) && is(b, d));
     }
-    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
-    let [from, to] = [a, b].map(|end| {
+    let highest = highest(job);
+    let known = |end: &Rapid| {
         let mut place = end.to;
-        place[DEPTH] = if height(end).is_infinite() { highest } else { place[DEPTH] };
+        place[DEPTH] = if end.height().is_infinite() { highest } else { place[DEPTH] };
         place
-    });
+    };
+    let [from, to] = [a, b].map(known);
     let is_end = |place: &Place| [from, to].iter().any(|end| same(end, place, ACROSS, tolerance));
     let crossed = job.iter().filter(|corner| !is_end(&corner.to));
     let mut stops: Vec<(f64, Place, f64)> = crossed.filter_map(|c| along(&c.to, &from, &to, tolerance)).collect();
     stops.sort_by(|a, b| a.0.total_cmp(&b.0));
     let over = |place: &Place, (c, d): (&Rapid, &Rapid)| {
-        along(place, &c.to, &d.to, tolerance).is_some_and(|(_, _, lowest)| place[DEPTH] >= lowest - tolerance)
+        along(place, &known(c), &known(d), tolerance).is_some_and(|(_, _, lowest)| place[DEPTH] >= lowest - tolerance)
     };
     let places: Vec<Place> = [from].into_iter().chain(stops.iter().map(|stop| stop.1)).chain([to]).collect();
     places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
@@ -204,32 +198,31 @@ pub(super) fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bo
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
     if known_start && job.len() == program.len() {
         let pairs = || job.iter().zip(program);
-        // if an axis is unknown in the job, any position of it is allowed
-        let is = |a: &Rapid, b: &Rapid| b.unknown & !a.unknown == 0 && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
+        let is = |a: &Rapid, b: &Rapid| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
         if pairs().all(|(a, b)| is(a, b)) {
             return if pairs().all(|(a, b)| spins(a, b)) { Compared::Same } else { Compared::Turning };
         }
     }
-    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
-    let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
+    let (highest, crossing) = (highest(job), crossing(job, tolerance));
     // at a position of the job, the path may be as low as the job is there; elsewhere it may be as low as the job's
     // moves across
     for corner in program.iter().skip(start) {
         // a corner of the job that gives only a height applies to any position
         let there =
             job.iter().filter(|other| other.unknown & 0b11 != 0 || same(&other.to, &corner.to, ACROSS, tolerance));
-        let at_corners = there.map(|other| other.to[DEPTH]).reduce(f64::min);
+        let at_corners = known_heights(there).reduce(f64::min);
         let floor = at_corners.unwrap_or(crossing);
-        if height(corner) >= floor - tolerance {
+        if corner.height() >= floor - tolerance {
             continue;
         }
         // on a steep rapid, the rounding of X and Y changes the height
         let is_on = |(a, b): (&Rapid, &Rapid)| {
-            along(&corner.to, &a.to, &b.to, tolerance)
-                .is_some_and(|(_, _, lowest)| height(corner) >= lowest - tolerance)
+            (a.unknown | b.unknown) & 1 << DEPTH == 0
+                && along(&corner.to, &a.to, &b.to, tolerance)
+                    .is_some_and(|(_, _, lowest)| corner.height() >= lowest - tolerance)
         };
         if at_corners.is_none() || !across(job, tolerance).any(is_on) {
-            return Compared::Lower(Low { to: *corner, height: height(corner), limit: floor });
+            return Compared::Lower(Low { to: *corner, height: corner.height(), limit: floor });
         }
     }
     // while the tool leaves, the spindle must be stopped, or stopped at its angle, if the job requires it
@@ -240,8 +233,8 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
         let all = pairs.all(|((a, b), (c, d))| {
             same(&a.to, &c.to, ACROSS & !a.unknown, tolerance)
                 && same(&b.to, &d.to, ACROSS & !b.unknown, tolerance)
-                && height(c) >= a.to[DEPTH] - tolerance
-                && height(d) >= b.to[DEPTH] - tolerance
+                && c.height() >= a.height() - tolerance
+                && d.height() >= b.height() - tolerance
         });
         if all {
             return if turns { Compared::Turning } else { Compared::AsGood { step_by_step: true } };
@@ -253,13 +246,14 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     // if the corners differ, no move across may be below the job's greatest height; if the job does not move across, the program must not
     // either
     let stays = across(job, tolerance).next().is_none();
+    let home = home_crossing(job, tolerance);
     for (a, b) in across(program, ROUNDED_ACROSS * tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
-        let low = height(a).min(height(b));
-        if low < highest - tolerance || (stays && known_start && low.is_finite()) {
-            let to = b.to;
-            let goes_there = job.iter().any(|corner| same(&corner.to, &to, ACROSS, tolerance));
+        let low = a.height().min(b.height());
+        let goes_home_low = b.unknown & ACROSS != 0 && home.is_some_and(|home| low < home - tolerance);
+        if low < highest - tolerance || goes_home_low || (stays && known_start && low.is_finite()) {
+            let goes_there = job.iter().any(|corner| same(&corner.to, &b.to, ACROSS, tolerance));
             let lower = Low { to: *b, height: low, limit: highest };
-            return if goes_there && !stays { Compared::Lower(lower) } else { Compared::Elsewhere(to) };
+            return if goes_there && !stays { Compared::Lower(lower) } else { Compared::Elsewhere(*b) };
         }
     }
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
@@ -267,15 +261,15 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
 
 /// The end of the first rapid straight up or down that is below the job's greatest height, at a position where the job
 /// has no corner. An example is a boring bar that leaves its hole at another distance from the wall.
-pub(super) fn goes_upright_elsewhere(job: &[Rapid], program: &[Rapid], highest: f64, tolerance: f64) -> Option<Place> {
+pub(super) fn goes_upright_elsewhere(job: &[Rapid], program: &[Rapid], highest: f64, tolerance: f64) -> Option<Rapid> {
     let is_there =
         |at: &Rapid| job.iter().any(|own| own.unknown & 0b11 != 0 || same(&own.to, &at.to, ACROSS, tolerance));
     let goes = |pair: &&[Rapid]| {
         let [a, b] = [&pair[0], &pair[1]];
         let is_upright = (a.unknown | b.unknown) & 0b11 == 0 && same(&a.to, &b.to, ACROSS, tolerance);
-        is_upright && height(a).min(height(b)) < highest - tolerance && !is_there(b)
+        is_upright && a.height().min(b.height()) < highest - tolerance && !is_there(b)
     };
-    program.windows(2).find(goes).map(|pair| pair[1].to)
+    program.windows(2).find(goes).map(|pair| pair[1])
 }
 
 /// The position with full turns added to or subtracted from its angles, so that the angles are near the angles of
@@ -321,7 +315,7 @@ pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, to
     let Some(begin) = program.corners.len().checked_sub(own.len()) else { return false };
     let mut pairs = own.iter().zip(&program.corners[begin..]);
     let comes_over = |(a, b): (&Rapid, &Rapid)| {
-        same(&a.to, &b.to, ACROSS, tolerance) && b.unknown & ACROSS == 0 && height(b) >= a.to[DEPTH] - tolerance
+        same(&a.to, &b.to, ACROSS, tolerance) && b.unknown & ACROSS == 0 && b.height() >= a.height() - tolerance
     };
     pairs.next().is_some_and(comes_over)
         && pairs.all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b))
@@ -409,7 +403,7 @@ mod tests {
         let job = [[0.0, 0.0, -5.0], [10.0, 0.0, -5.0], [10.0, 0.0, 5.0]];
         let before = [[0.0, 0.0, -5.0], [5.0, 0.0, -5.0], [5.0, 0.0, 5.0], [10.0, 0.0, 5.0]];
         assert!(
-            matches!(compared(&job, &before), Compared::Elsewhere(to) if to == place(&[5.0, 0.0, 5.0, 0.0, 0.0, 0.0]))
+            matches!(compared(&job, &before), Compared::Elsewhere(to) if to.to == place(&[5.0, 0.0, 5.0, 0.0, 0.0, 0.0]))
         );
         let divided = [[0.0, 0.0, -5.0], [5.0, 0.0, -5.0], [10.0, 0.0, -5.0], [10.0, 0.0, 5.0]];
         assert!(matches!(compared(&job, &divided), Compared::Same | Compared::AsGood { .. }));

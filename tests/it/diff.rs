@@ -340,6 +340,85 @@ fn motions_differ_in_machine_positions() {
     }
 }
 
+/// A machine position has a number, but this number is no height in the part. Under a machine position, the new program
+/// may go only as low as the old program goes.
+#[test]
+fn a_machine_position_gives_no_height() {
+    let part = |home: &str, height: &str| {
+        format!(
+            "G21 G90 G94 G17\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z50.\nG1 Z-1. F100.\nX10.\nG0 Z50.\n{home}\nT2 M6\n\
+             G54 G0 X60. Y5. S500 M3\nG43 H2 Z{height}\nZ2.\nG1 Z-3. F100.\nX70.\nG0 Z50.\nM30\n"
+        )
+    };
+    for (name, home) in
+        [("haas", "G53 G0 Z-10."), ("linuxcnc", "G53 G0 Z-10."), ("fanuc", "G53 G0 Z0."), ("fanuc", "G91 G28 Z0\nG90")]
+    {
+        let differs = |heights: [&str; 2]| difference(name, heights.map(|height| part(home, height)));
+        assert_eq!(differs(["50.", "50."]), None, "{name} {home}");
+        assert_eq!(differs(["50.", "60."]), None, "{name} {home}");
+        assert_eq!(
+            differs(["50.", "-1.5"]).unwrap(),
+            "a rapid goes to X60 Y5 Z-1.5, which is lower than in the old program",
+            "{name} {home}"
+        );
+    }
+}
+
+/// After the last cut: G28 without G91 goes to a position of the part first, and X and Y must not go home before Z.
+#[test]
+fn the_way_home_differs() {
+    let part = |home: &str| {
+        format!(
+            "G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z50.\nG1 Z-3. F100.\nX30.\nG0 Z5.\nX50. Y50.\n{home}\nM30\n"
+        )
+    };
+    let differs = |new: &str| difference("haas", ["G91 G28 Z0\nG28 X0 Y0", new].map(part));
+    assert_eq!(differs("G91 G28 Z0\nG28 X0 Y0"), None);
+    for new in ["G28 Z0\nG91 G28 X0 Y0", "G91 G28 X0 Y0\nG28 Z0"] {
+        assert_eq!(differs(new).unwrap(), "the path after the last cut is different", "{new}");
+    }
+}
+
+/// At a stop or a dwell, the tool is at least as high as in the old program.
+#[test]
+fn motions_differ_in_the_height_of_a_stop() {
+    let part = |pause: &str| {
+        format!(
+            "G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z50.\nG1 Z-3. F100.\nX30.\n{pause}\nM3\nG0 Z50.\nX60.\nG1 \
+             Z-3.\nG0 Z50.\nM30\n"
+        )
+    };
+    let differs = |pauses: [&str; 2]| difference("fanuc", pauses.map(part));
+    for (code, name) in [("M0", "M0"), ("M1", "M1"), ("G4 P500", "a dwell")] {
+        let [high, low, higher] = ["5.", "-2.", "20."].map(|height| format!("G0 Z{height}\n{code}"));
+        assert_eq!(differs([&high, &high]), None, "{code}");
+        assert_eq!(differs([&high, &higher]), None, "{code}");
+        assert_eq!(
+            differs([&high, &low]).unwrap(),
+            format!("at {name} before this cut, the tool is at Z-2, but at Z5 in the old program"),
+        );
+    }
+}
+
+/// On a Siemens, a setting decides whether the length of an active D counts in a machine position.
+#[test]
+fn motions_differ_in_the_length_at_a_machine_position() {
+    let part = |home: &str| {
+        format!(
+            "G17 G710 G40 G90 G94\nT1\nM6\nG54 D1 S2000 M3\nG0 X0 Y0\nZ50\nZ2\nG1 Z-1 F100\nX10\nG0 Z50\n{home}\nM5\nM30\n"
+        )
+    };
+    let differs = |homes: [&str; 2]| difference("siemens", homes.map(part));
+    assert_eq!(differs(["G0 SUPA Z-100", "G0 SUPA Z-100"]), None);
+    assert_eq!(differs(["G0 SUPA D0 Z-100", "D0\nG0 SUPA Z-100"]), None);
+    for new in ["G0 SUPA Z-100", "G0 G153 Z-100"] {
+        assert_eq!(
+            differs(["G0 SUPA D0 Z-100", new]).unwrap(),
+            "before this cut, the machine positions are Z-100 with D1 active, but Z-100 in the old program"
+        );
+    }
+}
+
 /// Codes that are not simulated are compared with their words.
 #[test]
 fn codes_that_are_not_simulated_have_words() {

@@ -247,6 +247,8 @@ fn what_is_not_read_is_refused_by_name() {
         ("heidenhain", "0 BEGIN PGM T MM\nL X+Q5 FMAX\nEND PGM T MM", "Q5"),
         ("heidenhain", "0 BEGIN PGM T MM\nCYCL DEF 251 POCKET ~\n Q215=0\nEND PGM T MM", "251"),
         ("heidenhain", "0 BEGIN PGM T MM\nM128\nEND PGM T MM", "M128"),
+        ("heidenhain", "0 BEGIN PGM T MM\nLBL 9\nFN 9: IF +1 EQU +4 GOTO LBL 9 M5\nEND PGM T MM", "`M5` can't be read"),
+        ("heidenhain", "0 BEGIN PGM T MM\nCYCL DEF 247 DATUM Q339=+1 Q340=+2\nEND PGM T MM", "Q340 in CYCL DEF 247"),
         ("heidenhain", "0 BEGIN PGM T MM\nAPPR LT X+0 Y+0 LEN5 RL\nEND PGM T MM", "APPR"),
         ("heidenhain", "0 BEGIN PGM T MM\nFPOL X+0 Y+0\nEND PGM T MM", "FPOL"),
         (

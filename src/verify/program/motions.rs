@@ -54,7 +54,9 @@ impl Program<'_> {
             // the machine's zero is at the point of G28
             let point = self.simulator.reference_point().unwrap_or(0);
             let placed = placed & !ROTARY | self.scale.axes(placed) & ROTARY;
-            self.passage.reaches_machine(placed, point, &to);
+            let register = self.state.length.filter(|register| *register != 0.0 && self.simulator.may_keep_length());
+            let length = register.map(|register| (self.simulator.state().length_axis(), register));
+            self.passage.reaches_machine(placed, point, &to, length);
         }
         let kept = self.scale.axes(kept);
         self.passage.rapids.push(Rapid { to, unknown, kept, spin: Some(self.spin) });

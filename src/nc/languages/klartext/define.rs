@@ -101,6 +101,10 @@ impl Words<'_> {
         match (cycle, part) {
             (247, _) => {
                 let words = self.parameters(cursor)?;
+                if let Some(word) = words.keys().find(|word| **word != 339) {
+                    let message = format!("Q{word} in CYCL DEF 247 is not supported");
+                    return Err(Fault::at(Code::PN016, begin, message, "write only Q339, the number of the datum"));
+                }
                 let datum = words.get(&339).copied().unwrap_or(0.0);
                 if datum.fract() != 0.0 || !(1.0..=999.0).contains(&datum) {
                     let message = format!("datum {datum} is not supported");

@@ -385,7 +385,8 @@ impl Simulator<'_> {
         if !cursor.takes_word("GOTO") || !cursor.takes_word("LBL") {
             return Err(cursor.unreadable());
         }
-        let Some(label) = name(cursor) else { return Err(cursor.unreadable()) };
+        let label = name(cursor).filter(|_| cursor.is_over());
+        let Some(label) = label else { return Err(cursor.unreadable()) };
         let is_so = match number {
             9 => first == second,
             10 => first != second,

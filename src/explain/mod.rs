@@ -78,7 +78,7 @@ pub fn list() -> String {
     text += "\nSequences\n";
     let upons = [
         ("Upon [var]", "when a variable changes"),
-        ("Upon Every [var]", "whenever a variable is used"),
+        ("Upon Every [var]", "before every use of a variable"),
         ("End", "ends a sequence; End Cancel ends a canned cycle and prints the sequence Cancel"),
         ("None", "a body that prints nothing"),
     ];

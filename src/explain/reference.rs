@@ -69,7 +69,7 @@ pub fn variables() -> String {
 pub fn sequences() -> String {
     let mut text = head(
         "Sequences",
-        "The table lists every sequence with its machines, the item of the job that prints the sequence, and a sample.",
+        "The table lists all sequences. For each sequence, it gives the machines, the item of the job for which the sequence is printed, and a sample.",
     );
     text += "| sequence | machines | event | sample | printed | required on |\n| --- | --- | --- | --- | --- | --- |\n";
     for row in SEQUENCES {
@@ -85,7 +85,7 @@ pub fn sequences() -> String {
         );
     }
     text += "| `Upon [var]` | mill | the next use of a variable that changed | [upon-work](../samples/upon-work) | when a variable changes | - |\n";
-    text += "| `Upon Every [var]` | mill | every use of a variable | [upon-every-tool](../samples/upon-every-tool) | whenever a variable is used | - |\n";
+    text += "| `Upon Every [var]` | mill | every use of a variable | [upon-every-tool](../samples/upon-every-tool) | before every use of a variable | - |\n";
     text += "| `Thread G33` (a command) | lathe | `thread` | [thread-g33](../samples/thread-g33) | each pass, if the \
         form has no threading cycle | - |\n";
     text

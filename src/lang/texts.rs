@@ -36,7 +36,7 @@ texts! {
     Toolname "toolname" "the tool's name"                        "`name` of the tool"
     Tooltext "tooltext" "the job's comment on the tool"          "`comment` of the tool"
     Opname   "opname"   "the operation's name"                   "`name` of the operation"
-    Optext   "optext"   "the job's comment on the operation"     "`comment` of the operation"
+    Optext   "optext"   "the comment of the operation in the job"     "`comment` of the operation"
     Text     "text"     "in CommentLine: the comment that is printed" "`comment` items"
     Date     "date"     "the date of printing, such as 2026-03-31"     "the clock, --date or SOURCE_DATE_EPOCH"
     Time     "time"     "the time of printing, such as 14:05"         "the clock, --date or SOURCE_DATE_EPOCH"

@@ -130,10 +130,16 @@ fn one_depth(spec: &CycleSpec, own_depth: Option<f64>, sink: Option<f64>) -> Res
     match other.filter(|(_, other, part)| (depth - other).abs() > part * other.abs()) {
         None => Ok(()),
         Some((name, other, _)) => {
-            let message = format!("the hole has a depth of {depth}, but its {name} give {other}");
+            let message = format!("the hole has a depth of {depth}, but its {name} give {}", rounded(other));
             Err(Problem::new(Code::PC016, message, format!("remove `depth`, or {name}")))
         }
     }
+}
+
+/// A calculated length for a message, without the last digits, which are not exact.
+fn rounded(length: f64) -> f64 {
+    const PARTS: f64 = 1e6;
+    (length * PARTS).round() / PARTS
 }
 
 /// Depth of a countersink: by its geometry (k / 2) / tan(l / 2), or by the formula printed in GENER's manual.

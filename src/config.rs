@@ -148,6 +148,16 @@ impl Config {
             }
             None => None,
         };
+        let names: Vec<&String> = written.properties.keys().collect();
+        for (at, name) in names.iter().enumerate() {
+            if let Some(other) = names[..at].iter().find(|other| other.eq_ignore_ascii_case(name)) {
+                let (name, other) = (escaped(name), escaped(other));
+                let help = "upper and lower case are equal in names of properties: remove one of the lines";
+                return Err(Error::usage(format!(
+                    "`{other}` and `{name}` under [properties] are the same property\n  help: {help}"
+                )));
+            }
+        }
         let limits =
             written.limits.map(|name| Limits::parse(&name).ok_or_else(|| one_of("limits", &name, &Limits::NAMES)));
         Ok(Config {

@@ -55,6 +55,11 @@ impl Levels {
         Ok(())
     }
 
+    /// Adds levels, which override the present levels of the same codes.
+    pub fn extend(&mut self, levels: Levels) {
+        self.0.extend(levels.0);
+    }
+
     /// Whether findings of this code are shown.
     pub(super) fn shows(&self, code: Code) -> bool {
         self.level(code) != Some(Level::Off)

@@ -442,4 +442,50 @@ fn a_property_that_no_form_has_is_misspelt() {
     for right in ["LIFT = 2", "through = true"] {
         assert_eq!(run(right).status.code(), Some(0), "{right}");
     }
+    let twice = run("Lift = 2\nlift = 3");
+    assert_eq!(twice.status.code(), Some(2));
+    let message = "`Lift` and `lift` under [properties] are the same property";
+    assert!(err(&twice).contains(message), "{}", err(&twice));
+}
+
+/// The settings for a program are in two files: one near the job, one near the form. If both have a key, the file near
+/// the job applies.
+#[test]
+fn settings_near_the_job_and_near_the_form_both_apply() {
+    let folder = Folder::new("two-settings");
+    folder.write(
+        "posts/form.pf",
+        mill("Property lift length 1 Lift\nProperty feed length 7 Feed", "")
+            .replace("\nStartCode\n", "\nStartCode\n(LIFT [lift] FEED [feed])\n"),
+    );
+    folder.write("posts/other.pf", mill("Property through yesno no Coolant", ""));
+    folder.write("jobs/job.json", support::job("{\"line\":[1,1,0]}"));
+    let run = |of_posts: &str, of_jobs: &str| {
+        folder.write("posts/postform.toml", of_posts);
+        folder.write("jobs/postform.toml", format!("form = \"../posts/form.pf\"\n{of_jobs}"));
+        folder.run(&["render", "jobs/job.json"])
+    };
+    for (of_posts, of_jobs, printed) in [
+        ("", "", "(LIFT 1 FEED 7)"),
+        ("[properties]\nlift = 2\n", "", "(LIFT 2 FEED 7)"),
+        ("", "[properties]\nlift = 3\nthrough = true\n", "(LIFT 3 FEED 7)"),
+        ("[properties]\nlift = 2\nfeed = 4\n", "[properties]\nLift = 3\n", "(LIFT 3 FEED 4)"),
+    ] {
+        let output = run(of_posts, of_jobs);
+        assert!(out(&output).contains(printed), "{of_posts}{of_jobs}: {}{}", out(&output), err(&output));
+    }
+    // the form is not proven
+    for (of_posts, of_jobs) in [("require-proof = true\n", ""), ("", "require-proof = true\n")] {
+        let output = run(of_posts, of_jobs);
+        assert_eq!((output.status.code(), out(&output)), (Some(1), String::new()), "{}", err(&output));
+    }
+    for (of_posts, of_jobs, file) in
+        [("[properties]\nlfit = 2\n", "", "posts/"), ("", "[properties]\nlfit = 2\n", "jobs/")]
+    {
+        let output = run(of_posts, of_jobs);
+        assert_eq!(output.status.code(), Some(2));
+        let said = err(&output);
+        assert!(said.contains(&format!("{file}postform.toml: no form in this folder")), "{said}");
+        assert!(said.contains("did you mean `lift`?"), "{said}");
+    }
 }

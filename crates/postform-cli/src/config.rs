@@ -31,10 +31,21 @@ pub struct Config {
     pub require_proof: bool,
     /// Severities of rules.
     pub levels: Levels,
-    /// Values of properties of forms, by their names.
-    pub properties: Vec<(String, String)>,
+    /// Values of properties of forms.
+    pub properties: Vec<Given>,
     /// The settings of `postform test`.
     pub test: Tests,
+}
+
+/// A value of a property.
+#[derive(Clone, Debug)]
+pub struct Given {
+    /// The name of the property.
+    pub name: String,
+    /// The value, as a user would type it.
+    pub value: String,
+    /// The `postform.toml` with the value.
+    file: PathBuf,
 }
 
 /// The section `[test]` of the configuration.
@@ -89,6 +100,45 @@ impl Config {
         }
     }
 
+    /// The configuration for the program that a form prints for a job: the file for the job and the file for the form.
+    ///
+    /// # Errors
+    /// A message: one of the files can't be read, or contains a value that makes no sense.
+    pub fn of_program(job: &Path, form: &Path) -> Result<Config, String> {
+        Ok(Config::near(job)?.over(Config::near(form)?))
+    }
+
+    /// Adds the settings of another file. If both files have a key, the key of `self` applies; a proof is required if
+    /// one of the files requires it.
+    pub fn over(self, other: Config) -> Config {
+        if self.path == other.path {
+            return self;
+        }
+        let is_own = |given: &Given| self.properties.iter().any(|own| own.name.eq_ignore_ascii_case(&given.name));
+        let mut properties = other.properties;
+        properties.retain(|given| !is_own(given));
+        properties.extend(self.properties);
+        let mut levels = other.levels;
+        levels.extend(self.levels);
+        Config {
+            path: self.path.or(other.path),
+            form: self.form.or(other.form),
+            control: self.control.or(other.control),
+            machine: self.machine.or(other.machine),
+            limits: self.limits.or(other.limits),
+            jobs: if self.jobs.is_empty() { other.jobs } else { self.jobs },
+            require_proof: self.require_proof || other.require_proof,
+            levels,
+            properties,
+            test: self.test,
+        }
+    }
+
+    /// The values of properties, by their names, as [`postform::Options`] takes them.
+    pub fn shop_properties(&self) -> Vec<(String, String)> {
+        self.properties.iter().map(|given| (given.name.clone(), given.value.clone())).collect()
+    }
+
     /// Reads the text of the file.
     ///
     /// # Errors
@@ -112,7 +162,11 @@ impl Config {
             jobs: said.jobs.iter().map(near).collect(),
             require_proof: said.require_proof,
             levels: said.levels,
-            properties: said.properties,
+            properties: said
+                .properties
+                .into_iter()
+                .map(|(name, value)| Given { name, value, file: path.to_path_buf() })
+                .collect(),
             test: Tests {
                 forms: said.test.forms.iter().map(near).collect(),
                 post: said.test.post,
@@ -128,34 +182,40 @@ impl Config {
 const MOST_FILES: usize = 2000;
 
 impl Config {
-    /// Refuses a name under `[properties]` that no form of the folder has; `own` are the properties of the current form.
+    /// Refuses a name under `[properties]` that no form has. The searched forms are those in the folder of the form, in
+    /// the folder of the `postform.toml` with the name, and below. `own` are the properties of the form.
     ///
     /// # Errors
     /// A message with the intended name.
-    pub fn check_properties(&self, own: &[Property]) -> Result<(), String> {
-        let Some(path) = &self.path else { return Ok(()) };
-        let mut strange: Vec<&str> = self.properties.iter().map(|(name, _)| name.as_str()).collect();
-        strange.retain(|name| !has(own, name));
-        if strange.is_empty() || !self.others(files::folder(path), &mut strange) {
+    pub fn check_properties(&self, form: &Path, own: &[Property]) -> Result<(), String> {
+        let mut strange: Vec<&Given> = self.properties.iter().filter(|given| !has(own, &given.name)).collect();
+        let of_files = strange.iter().map(|given| files::folder(&given.file).to_path_buf());
+        let of_form = files::folder(form).canonicalize().ok().filter(|_| form != Path::new("-"));
+        let mut folders: Vec<PathBuf> = of_files.chain(of_form).collect();
+        // a folder in another one is searched with it
+        folders.sort();
+        folders.dedup_by(|folder, above| folder.starts_with(above));
+        let is_one = folders.len() == 1;
+        if strange.is_empty() || !self.others(folders, &mut strange) {
             return Ok(());
         }
-        let Some(name) = strange.first() else { return Ok(()) };
+        let Some(Given { name, file, .. }) = strange.first() else { return Ok(()) };
         let names = own.iter().map(|property| property.name.as_str());
         let help = did_you_mean(name, names).unwrap_or_else(|| {
             "`postform properties FORM` lists the properties of a form; remove the line, or fix the name of the \
              property"
                 .into()
         });
-        let file = files::name(path);
-        Err(format!(
-            "error: {file}: no form in this folder has the property `{name}` (under [properties])\n  help: {help}"
-        ))
+        let searched =
+            if is_one { "in this folder".into() } else { format!("in this folder or that of {}", files::name(form)) };
+        let file = files::name(file);
+        Err(format!("error: {file}: no form {searched} has the property `{name}` (under [properties])\n  help: {help}"))
     }
 
-    /// Removes from `names` each property of a form in the folder or its subfolders. Returns `false` if there are more
-    /// files than the maximum.
-    fn others(&self, folder: &Path, names: &mut Vec<&str>) -> bool {
-        let (mut folders, mut left) = (vec![folder.to_path_buf()], MOST_FILES);
+    /// Removes from `names` each property of a form in the folders or their subfolders. Returns `false` if there are
+    /// more files than the maximum.
+    fn others(&self, mut folders: Vec<PathBuf>, names: &mut Vec<&Given>) -> bool {
+        let mut left = MOST_FILES;
         while let (Some(folder), false) = (folders.pop(), names.is_empty()) {
             for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
                 let Some(rest) = left.checked_sub(1) else { return false };
@@ -168,7 +228,7 @@ impl Config {
                     && let Ok(form) = FormFile::read(&path, self.limits.unwrap_or_default())
                 {
                     let form = form.analyse(&Changed::new()).form;
-                    names.retain(|name| !has(&form.settings.properties, name));
+                    names.retain(|given| !has(&form.settings.properties, &given.name));
                 }
             }
         }

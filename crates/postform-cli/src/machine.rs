@@ -48,13 +48,8 @@ pub fn named(arg: &MachineArg, form: Option<(&Path, &Post)>, config: &Config) ->
 ///
 /// # Errors
 /// The machine file can't be read, or contains an error.
-pub fn of_prepared(
-    arg: &MachineArg,
-    form: &Path,
-    prepared: &mut Prepared,
-    config: &Config,
-) -> Result<Option<Machine>, String> {
-    let machine = named(arg, Some((form, &prepared.post)), config)?;
+pub fn of_prepared(arg: &MachineArg, form: &Path, prepared: &mut Prepared) -> Result<Option<Machine>, String> {
+    let machine = named(arg, Some((form, &prepared.post)), &prepared.config)?;
     prepared.options.rates = machine.as_ref().and_then(|machine| machine.rates().ok());
     Ok(machine)
 }

@@ -21,6 +21,8 @@ pub struct Prepared {
     pub options: Options,
     /// Whether warnings are errors, so that no program is printed.
     pub denies: bool,
+    /// The settings for the job and the form.
+    pub config: Config,
 }
 
 /// Reads a form, shows its findings and prompts for its variables. `None`: the form has errors, which have been shown.
@@ -30,7 +32,7 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     if form == standard_input && job == standard_input {
         return Err("error: form and job can't both be standard input".into());
     }
-    let config = Config::near(form)?;
+    let config = Config::of_program(job, form)?;
     let limits = args.limits.map(LimitsArg::limits).or(config.limits).unwrap_or_default();
     let file = FormFile::read(form, limits)?.of_post(args.post.as_deref())?;
     let (post, found) = match Post::compile_with(file.source(), &file, limits, &config.levels) {
@@ -52,8 +54,8 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         message(&format!("{name}: {}, nothing was printed", stops.join(", ")));
         return Ok(None);
     };
-    config.check_properties(post.properties())?;
-    options.shop_properties.clone_from(&config.properties);
+    config.check_properties(form, post.properties())?;
+    options.shop_properties = config.shop_properties();
     prompt::answers(&args.set, post.properties(), &mut options)?;
     if post.says_time() && options.clock.is_none() {
         options.clock = Some(clock::now()?);
@@ -62,5 +64,5 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         job.file_name().filter(|_| job != standard_input).map(|name| name.to_string_lossy().into_owned());
     prompt::ask(&post, &mut options, args.ask, job == standard_input)
         .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
-    Ok(Some(Prepared { post, options, denies: args.denies_warnings() }))
+    Ok(Some(Prepared { post, options, denies: args.denies_warnings(), config }))
 }

@@ -29,7 +29,7 @@ pub fn run(args: &PropertiesArgs, colour: bool) -> Result<Ending, String> {
             return Ok(Ending::Findings);
         }
     };
-    config.check_properties(post.properties())?;
+    config.check_properties(&args.form, post.properties())?;
     let text = match args.format {
         PropertiesFormat::Text => text(&post),
         PropertiesFormat::Json => document(&post, &args.form),

@@ -40,12 +40,12 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
     };
     files::check_format(&args.job, &args.read)?;
     let config = Config::near(&args.job)?;
-    let Some(form) = args.form.clone().or(config.form.clone()) else {
+    let Some(form) = args.form.clone().or(config.form) else {
         let help = "give --form, or name one in a postform.toml: form = \"fanuc.pf\"";
         return Err(format!("error: no form is given to print {}\n  help: {help}", files::name(&args.job)));
     };
     let Some(mut prepared) = prepare(&form, &args.options, &args.job, reporter)? else { return Ok(Ending::Findings) };
-    let named = machine::of_prepared(&args.machine, &form, &mut prepared, &config)?;
+    let named = machine::of_prepared(&args.machine, &form, &mut prepared)?;
     let mut job = files::job(&args.job, &args.read, true)?;
     let target = Target::open(&args.output, false)?;
     let (post, options) = (&prepared.post, &prepared.options);

@@ -49,15 +49,16 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     if args.nc.is_some() {
         return Err("error: --nc takes one job".into());
     }
-    let mut forms: HashMap<PathBuf, Prepared> = HashMap::new();
+    // forms by their path and the postform.toml of the job
+    let mut forms: HashMap<(PathBuf, Option<PathBuf>), Prepared> = HashMap::new();
     let mut items = Vec::new();
     let jobs = many::jobs(&args.jobs)?;
     files::check_formats(&jobs, &args.read)?;
     for job in jobs {
         let config = Config::near(&job)?;
         let form = form_of(args, &config).ok_or_else(no_form)?;
-        if let Entry::Vacant(entry) = forms.entry(form.clone()) {
-            let prepared = prepare(entry.key(), &args.options, &job, reporter)?;
+        if let Entry::Vacant(entry) = forms.entry((form.clone(), config.path.clone())) {
+            let prepared = prepare(&form, &args.options, &job, reporter)?;
             let Some(prepared) = prepared else { return Ok(Ending::Findings) };
             entry.insert(prepared);
         }
@@ -69,7 +70,8 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
         |(job, ..)| files::name(job),
         "job",
         |(job, form, config)| {
-            tried(job, args, forms.get(form).map(|prepared| (form.as_path(), prepared)), config, reporter)
+            let prepared = forms.get(&(form.clone(), config.path.clone()));
+            tried(job, args, prepared.map(|prepared| (form.as_path(), prepared)), config, reporter)
         },
     )
 }
@@ -104,6 +106,7 @@ fn tried(
 ) -> Result<(String, Ending), String> {
     let prepared = form.map(|(_, prepared)| prepared);
     let named = form.map(|(form, prepared)| (form, &prepared.post));
+    let config = prepared.map_or(config, |prepared| &prepared.config);
     let machine = machine::named(&args.machine, named, config)?;
     let of_machine = machine.as_ref().and_then(|machine| machine.control);
     let by_name = || control_of_name(args.nc.as_deref()?);

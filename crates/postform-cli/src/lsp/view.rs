@@ -69,7 +69,7 @@ impl View {
         let file = checked.files.iter().position(|source| source.name == own);
         // the root contains a call of the open form, but the call fails
         let Some(file) = file.map(|file| file as u32) else { return View::new(text, text.path.as_deref(), texts, job) };
-        let document = Document::of(checked, &config.levels).with_properties(&config.properties);
+        let document = Document::of(checked, &config.levels).with_properties(&config.shop_properties());
         let jobs: Vec<JobText> = job
             .into_iter()
             .map(Path::to_path_buf)
@@ -137,7 +137,7 @@ impl View {
     pub fn with_text(&self, text: &str) -> View {
         let changed = Changed::from([(self.source().name.clone(), text.to_owned())]);
         let document =
-            Document::of(self.analyse(&changed), &self.config.levels).with_properties(&self.config.properties);
+            Document::of(self.analyse(&changed), &self.config.levels).with_properties(&self.config.shop_properties());
         View {
             document,
             file: self.file,

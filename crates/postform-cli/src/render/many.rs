@@ -139,7 +139,7 @@ impl Forms {
         if let Some(&row) = self.rows.get(&key) {
             return Ok(Some(row));
         }
-        let Some(ready) = Ready::of(&form, job, args, &config, reporter)? else { return Ok(None) };
+        let Some(ready) = Ready::of(&form, job, args, reporter)? else { return Ok(None) };
         self.ready.push(ready);
         self.rows.insert(key, self.ready.len() - 1);
         Ok(Some(self.ready.len() - 1))

@@ -93,7 +93,7 @@ fn one(jobs: &[&Path], args: &RenderArgs, colour: bool) -> Result<Ending, String
     jobs.iter().try_for_each(|job| files::check_format(job, &args.read))?;
     let config = Config::near(job)?;
     let form = form_of(job, args, &config)?;
-    let Some(ready) = Ready::of(&form, job, args, &config, &reporter)? else { return Ok(Ending::Findings) };
+    let Some(ready) = Ready::of(&form, job, args, &reporter)? else { return Ok(Ending::Findings) };
     distinct(args)?;
     let task = Task { jobs, output: &args.output, name: None, called: "the program", part: None, number: None };
     print::print(&task, &ready, args, &reporter)
@@ -124,16 +124,10 @@ struct Ready {
 
 impl Ready {
     /// `None`: the form has errors, which have been shown.
-    fn of(
-        form: &Path,
-        job: &Path,
-        args: &RenderArgs,
-        config: &Config,
-        reporter: &Reporter,
-    ) -> Result<Option<Ready>, String> {
+    fn of(form: &Path, job: &Path, args: &RenderArgs, reporter: &Reporter) -> Result<Option<Ready>, String> {
         let Some(mut prepared) = prepare(form, &args.options, job, reporter)? else { return Ok(None) };
-        let machine = machine::of_prepared(&args.machine, form, &mut prepared, config)?;
-        let required = args.require_proof || config.require_proof;
+        let machine = machine::of_prepared(&args.machine, form, &mut prepared)?;
+        let required = args.require_proof || prepared.config.require_proof;
         Ok(Some(Ready { form: form.to_path_buf(), prepared, machine, required }))
     }
 }

@@ -142,10 +142,10 @@ impl Ready {
             let errors: Vec<Diag> = found.diags.into_iter().filter(Diag::is_error).collect();
             format!("{name} has errors\n{}", Reporter::new(false).text(&errors, &found.files).trim_end())
         })?;
-        config.check_properties(post.properties())?;
+        config.check_properties(path, post.properties())?;
         let mut options = Options::default();
         options.trace = true;
-        options.shop_properties.clone_from(&config.properties);
+        options.shop_properties = config.shop_properties();
         let mut proof = Proof::default();
         proof.control = post.control().is_none().then_some(config.control).flatten();
         Ok(Ready { post, options, proof, checked: file.analyse(&Changed::new()) })

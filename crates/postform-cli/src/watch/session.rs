@@ -120,7 +120,7 @@ impl Session {
             files::open_program(against)?;
         }
         let mut options = args.options.options();
-        options.shop_properties.clone_from(&config.properties);
+        options.shop_properties = config.shop_properties();
         prompt::answers(&args.options.set, &form.settings.properties, &mut options)?;
         if options.clock.is_none() {
             options.clock = Some(clock::now()?);

@@ -17,15 +17,13 @@ impl Analysis {
         if !has_sequences(&items[..at]) || !has_sequences(&items[at..]) {
             return None; // a single post with two names
         }
-        let names: Vec<String> = posts.iter().map(|(_, post)| format!("`{}`", post.argument())).collect();
+        let names: Vec<String> = posts.iter().map(|(_, post)| post.argument()).collect();
+        let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
         self.report(
-            Diag::new(Code::PF006, format!("the file contains {} posts: {}", names.len(), names.join(", ")))
+            Diag::new(Code::PF006, format!("the file contains {} posts: {}", names.len(), quoted.join(", ")))
                 .at(second.line.span, "another post begins here")
                 .at(first.line.span, "the first one")
-                .help(format!(
-                    "choose one with `--post {}`, or copy its lines into a separate file",
-                    names[0].trim_matches('`')
-                )),
+                .help(format!("choose one with `--post \"{}\"`, or copy its lines into a separate file", names[0])),
         );
         Some(at)
     }

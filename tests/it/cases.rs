@@ -317,12 +317,173 @@ fn what_is_wrong_can_not_be_expected() {
     assert!(!folder.has("tests/drill/expected.lost.refused") && !folder.has("tests/drill/expected.lost.nc"));
     folder.write("tests/drill/expected.lost.refused", "PV014\n");
     let output = folder.run(&["test", "tests/drill"]);
-    assert!(out(&output).contains("PV014 was expected, but PV014 was reported"), "{}", out(&output));
+    assert!(out(&output).contains("PV014 can't be an expected result"), "{}", out(&output));
     assert_eq!(output.status.code(), Some(1));
     folder.write("haas.pf", form);
     folder.write("cut/job.json", "{\"postform\": 1, ");
     ends(&folder.run(&["test", "cut", "--update", "--form", "haas.pf"]), 1, "1 case, 1 form: 1 program, 1 failed");
     assert!(!folder.has("cut/expected.haas.refused"));
+}
+
+/// Only errors that the form or the machine causes are expected results. Errors of the job are not, in any format.
+#[test]
+fn a_damaged_job_is_no_expected_result() {
+    let folder = Folder::new("cases-damaged");
+    fs::copy(root().join("postforms/haas.pf"), folder.0.join("haas.pf")).unwrap();
+    let begin_of = |file: &str, bytes: usize| fs::read(root().join(file)).unwrap()[..bytes].to_vec();
+    for (job, bytes, code) in [
+        ("job.cl", begin_of("samples/cl-drill/job.cl", 150), "PL001"),
+        ("job.FCStd", begin_of("tests/data/freecad/holes-1.1.FCStd", 3000), "PD001"),
+        ("job.nc", b"%\nO1\nG21 G90 G54\nT1 M6\nS1000 M3\nG43 H1 Z5.\nG0 X0 Y0\nG1 Z-1. F100\nG2 X1.\n".to_vec(), "PN"),
+        // the units of this file are an option of the command
+        ("job.nci", fs::read(root().join("tests/data/nci/holes-and-arcs.nci")).unwrap(), "PI002"),
+        (
+            "job.json",
+            fs::read_to_string(root().join("crates/postform-cli/cases/mill/countersink.json"))
+                .unwrap()
+                .replace("\"diameter\": 4", "\"diameter\": 8")
+                .into_bytes(),
+            "the hole has a depth of 2, but its `diameter` and `angle` give 4\n",
+        ),
+    ] {
+        _ = fs::remove_dir_all(folder.0.join("cases"));
+        folder.write(&format!("cases/{job}"), bytes);
+        let output = folder.run(&["test", "cases", "--update", "--form", "haas.pf"]);
+        let said = out(&output);
+        assert!(said.contains(code), "{job}: {said}");
+        ends(&output, 1, "1 case, 1 form: 1 program, 1 failed");
+        assert!(!folder.has("cases/expected.haas.refused"), "{job}");
+        // a file written by hand changes nothing
+        let reported = said.lines().nth(1).and_then(|line| line.split(' ').next()).unwrap();
+        folder.write("cases/expected.haas.refused", reported);
+        let output = folder.run(&["test", "cases", "--form", "haas.pf"]);
+        let message = format!("{reported} can't be an expected result");
+        assert!(out(&output).contains(&message), "{job}: {}", out(&output));
+        ends(&output, 1, "1 case, 1 form: 1 program, 1 failed");
+    }
+}
+
+/// Two forms with one name would have the same expected programs, so that only one of them would be tested.
+#[test]
+fn two_forms_with_one_name_are_an_error() {
+    let folder = Folder::new("cases-names");
+    for form in ["one/main.pf", "two/main.pf"] {
+        folder.write(form, fs::read_to_string(root().join("postforms/haas.pf")).unwrap());
+    }
+    folder.write("tests/job.json", fs::read_to_string(root().join("samples/bracket/job.json")).unwrap());
+    ends(&folder.run(&["test", "--update", "--form", "one"]), 0, "1 case, 1 form: 1 program, 1 written");
+    let both = "error: one/main.pf and two/main.pf would have the same expected programs: expected.main.nc\n";
+    folder.write("tests/postform.toml", "[test]\nforms = [\"../one\", \"../two/main.pf\"]\n");
+    for arguments in [
+        &["test"][..],
+        &["test", "--form", "one/main.pf", "--form", "two/main.pf"],
+        &["test", "--update", "--form", "one", "--form", "two"],
+    ] {
+        let output = folder.run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", out(&output));
+        assert!(err(&output).contains(both), "{arguments:?}: {}", err(&output));
+    }
+    // the same form, named twice, is one form
+    folder.write("tests/postform.toml", "[test]\nforms = [\"../one\", \"../one/main.pf\"]\n");
+    ends(&folder.run(&["test"]), 0, "1 case, 1 form: 1 program, all as expected");
+}
+
+#[test]
+fn a_post_of_several_is_named_in_the_file_or_on_the_command_line() {
+    let folder = Folder::new("cases-post");
+    let dry = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    let begin = dry.find("Name ").unwrap();
+    let end = dry[begin..].find('\n').unwrap() + begin;
+    let named = |name: &str| format!("Name {name}{}", &dry[end..]);
+    folder.write("two.pf", named("Mill dry") + &named("Mill wet").replace("M30", "M2"));
+    folder.write("cases/job.json", fs::read_to_string(root().join("samples/bracket/job.json")).unwrap());
+    let output = folder.run(&["test", "cases", "--update", "--form", "two.pf"]);
+    assert!(out(&output).contains("choose one with `--post \"Mill dry\"`"), "{}", out(&output));
+    assert_eq!(output.status.code(), Some(1));
+    let wet = ["test", "cases", "--update", "--form", "two.pf", "--post", "Mill wet"];
+    ends(&folder.run(&wet), 0, "1 case, 1 form: 1 program, 1 written");
+    assert!(folder.read("cases/expected.two.nc").contains(" M2\n"));
+    folder.write("cases/postform.toml", "[test]\nforms = [\"../two.pf\"]\npost = \"Mill wet\"\n");
+    for arguments in [&["test", "cases"][..], &["test", "cases", "--form", "two.pf"]] {
+        ends(&folder.run(arguments), 0, "1 case, 1 form: 1 program, all as expected");
+    }
+    let output = folder.run(&["test", "cases", "--post", "Mill dry"]);
+    ends(&output, 1, "1 case, 1 form: 1 program, 1 differs");
+    let output = folder.run(&["test", "--new", "two.pf", "--post", "Mill wet"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert_eq!(folder.read("tests/postform.toml"), "[test]\nforms = [\"../two.pf\"]\npost = \"Mill wet\"\n");
+    ends(&folder.run(&["test"]), 0, "56 cases, 1 form: 56 programs, all as expected");
+}
+
+/// A FreeCAD document contains no program number, and an NC program may contain none. These jobs get the number 1.
+#[test]
+fn a_job_without_a_program_number_gets_one() {
+    let folder = Folder::new("cases-numbers");
+    fs::copy(root().join("postforms/haas.pf"), folder.0.join("haas.pf")).unwrap();
+    let program = |number: &str| {
+        format!(
+            "%\n{number}G21 G17 G90 G54\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z5.\nG1 Z-1. F100.\nG1 X10.\nG0 Z5.\nM30\n%\n"
+        )
+    };
+    let freecad = fs::read(root().join("tests/data/freecad/holes-1.1.FCStd")).unwrap();
+    for (job, bytes, number) in [
+        ("job.FCStd", freecad, "O00001"),
+        ("job.nc", program("").into_bytes(), "O00001"),
+        ("job.nc", program("O77\n").into_bytes(), "O00077"),
+    ] {
+        _ = fs::remove_dir_all(folder.0.join("cases"));
+        folder.write(&format!("cases/{job}"), bytes);
+        let output = folder.run(&["test", "cases", "--update", "--form", "haas.pf"]);
+        ends(&output, 0, "1 case, 1 form: 1 program, 1 written");
+        let program = folder.read("cases/expected.haas.nc");
+        assert!(program.contains(number), "{job}: {program}");
+    }
+}
+
+/// As in `render`, a program that does not fit into the machine is refused, whichever file names the machine.
+#[test]
+fn a_program_must_fit_into_the_machine() {
+    let folder = Folder::new("cases-machine");
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    folder.write("posts/short.toml", "name = \"short\"\nunits = \"mm\"\n[axes.X]\ntravel = [-10.0, 0.0]\n");
+    folder.write("jobs/job.json", fs::read_to_string(root().join("samples/bracket/job.json")).unwrap());
+    let of_form = form.replace("\nControl haas\n", "\nControl haas\nMachineFile short.toml\n");
+    for (form, of_posts, of_jobs) in [
+        (of_form.as_str(), "", ""),
+        (&form, "machine = \"short.toml\"\n", ""),
+        (&form, "", "machine = \"../posts/short.toml\"\n"),
+    ] {
+        folder.write("posts/haas.pf", form);
+        folder.write("posts/postform.toml", of_posts);
+        folder.write("jobs/postform.toml", of_jobs);
+        _ = fs::remove_file(folder.0.join("jobs/expected.haas.refused"));
+        let test = ["test", "jobs", "--form", "posts/haas.pf"];
+        let output = folder.run(&[&test[..], &["--update"]].concat());
+        ends(&output, 0, "1 case, 1 form: 1 program, 1 written");
+        assert_eq!(folder.read("jobs/expected.haas.refused"), "PM001\n");
+        assert!(out(&output).contains("PM001 at jobs/job.json:48:9, operations[1].path[4]"), "{}", out(&output));
+        ends(&folder.run(&test), 0, "1 case, 1 form: 1 program, all as expected");
+        let render = folder.run(&["render", "jobs/job.json", "--form", "posts/haas.pf"]);
+        assert_eq!((render.status.code(), out(&render)), (Some(1), String::new()));
+    }
+}
+
+/// The properties of the form come from both postform.toml, as in `render`. Forms of several folders are counted once.
+#[test]
+fn cases_in_folders_with_settings_of_their_own() {
+    let folder = Folder::new("cases-settings");
+    fs::copy(root().join("postforms/haas.pf"), folder.0.join("haas.pf")).unwrap();
+    for (name, header) in [("plain", ""), ("bare", "[properties]\nheader = false\n")] {
+        folder.write(&format!("{name}/job.json"), fs::read_to_string(root().join("samples/bracket/job.json")).unwrap());
+        folder.write(&format!("{name}/postform.toml"), format!("{header}[test]\nforms = [\"../haas.pf\"]\n"));
+    }
+    let output = folder.run(&["test", "plain", "bare", "--update", "--form", "haas.pf"]);
+    ends(&output, 0, "2 cases, 1 form: 2 programs, 2 written");
+    let lengths = ["plain", "bare"].map(|name| folder.read(&format!("{name}/expected.haas.nc")).len());
+    assert!(lengths[1] < lengths[0], "{lengths:?}");
+    let output = folder.run(&["test", "plain", "bare", "--coverage"]);
+    assert_eq!(out(&output).matches("the cases print").count(), 1, "{}", out(&output));
+    ends(&output, 0, "2 cases, 1 form: 2 programs, all as expected");
 }
 
 #[test]
@@ -361,6 +522,11 @@ fn what_is_not_proven_is_named() {
     let why =
         "not proven: tests/lines/expected.siemens.nc by siemens.pf: the program is in the language of Siemens controls";
     assert!(said.contains(why), "{said}");
+    // the postform.toml near the form requires a proof
+    folder.write("postform.toml", "require-proof = true\n");
+    let output = folder.run(&["test", "tests/lines"]);
+    assert!(out(&output).contains("postform.toml requires a proof"), "{}", out(&output));
+    assert_eq!(output.status.code(), Some(1));
 }
 
 #[test]

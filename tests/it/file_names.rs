@@ -75,7 +75,7 @@ fn a_file_of_several_posts_prints_by_one_of_them() {
     assert_eq!(last(&render(&folder, &both, &job, &["--post", "haas TWO"])).as_deref(), Some("M2"));
     let which = render(&folder, &both, &job, &[]);
     let said = String::from_utf8_lossy(&which.stderr).into_owned();
-    assert!(said.contains("PF006") && said.contains("--post Haas one"), "{said}");
+    assert!(said.contains("PF006") && said.contains("--post \"Haas one\""), "{said}");
     let none = render(&folder, &both, &job, &["--post", "Mazak"]);
     let said = String::from_utf8_lossy(&none.stderr).into_owned();
     assert!(none.status.code() == Some(2) && said.contains("Haas one, Haas two"), "{said}");

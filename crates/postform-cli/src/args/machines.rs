@@ -7,7 +7,7 @@ use clap::{Args, Subcommand};
 use super::{ControlArgs, UnitsArg, VerifyFormat};
 
 /// `--machine`, for commands that check programs.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct MachineArg {
     /// Machine file: check that the program fits this machine [default: the form's MachineFile, else that in postform.toml]
     #[arg(long, value_name = "FILE")]

@@ -14,6 +14,9 @@ pub struct TestArgs {
     /// A form, or a folder of forms, instead of those under [test] in postform.toml; may be given several times
     #[arg(long = "form", value_name = "FORM")]
     pub forms: Vec<PathBuf>,
+    /// The post to use from a form that contains several, by its Name [default: the post under [test] in postform.toml]
+    #[arg(long, value_name = "NAME")]
+    pub post: Option<String>,
     /// Show the differences, then write the printed programs as the expected ones
     #[arg(long)]
     pub update: bool,

@@ -9,12 +9,13 @@ use postform::internals::diff::{self, Edit, Ignore, Summary, compare};
 use postform::internals::post::Part;
 use postform::internals::render::{Clock, Cycles, TraceLine};
 use postform::internals::trace::Trace;
-use postform::{Error, Finding, Format, Verdict};
+use postform::{Error, Finding, Format, Job, Options, Verdict};
 
 use super::super::args::ReadArgs;
 use super::super::beside::{self, Printed};
 use super::super::diff::{Side, unified};
 use super::super::files::{self, io_message};
+use super::super::machine;
 use super::super::output::write_whole;
 use super::super::report::{Reporter, place_in};
 use super::posts::{Posts, Ready};
@@ -40,8 +41,6 @@ pub struct Case {
     pub tolerance: f64,
     /// The date with which the program is printed.
     pub clock: Clock,
-    /// Whether the case fails if the program is not proven.
-    pub require_proof: bool,
 }
 
 /// The kind of the expected result.
@@ -125,7 +124,7 @@ impl Case {
         let (ignore, tolerance) = (Ignore::default(), 0.0);
         let clock = Clock { date: "2000-01-01".into(), time: "00:00".into() };
         let (cycles, wanted) = (Cycles::Form, Wanted::Nothing);
-        Case { job, form: 0, expected, cycles, wanted, ignore, tolerance, clock, require_proof: false }
+        Case { job, form: 0, expected, cycles, wanted, ignore, tolerance, clock }
     }
 
     /// Prints the program of the case and compares it with the expected result. `update`: a different result is written
@@ -164,8 +163,7 @@ impl Case {
         options.cycles = self.cycles;
         options.clock = Some(self.clock.clone());
         options.job_file = self.job.file_name().map(|name| name.to_string_lossy().into_owned());
-        // a CL file contains no program number
-        if files::format_of_name(&self.job) == Some(Format::Cl) {
+        if !has_number(&mut job, ready) {
             options.program = Some(1);
         }
         let (mut text, mut trace) = (Vec::new(), Vec::new());
@@ -193,7 +191,25 @@ impl Case {
             let diag = |finding: &Finding| finding.diag("the program");
             return Ok(Err(Refused { diags: findings.iter().map(diag).collect(), message: String::new() }));
         }
+        if let Some(refused) = self.on_machine(ready, (&mut job, &options), &text)? {
+            return Ok(Err(refused));
+        }
         Ok(Ok(Program { text, trace, verdict: proven.verdict }))
+    }
+
+    /// The errors of a program that does not fit into the machine.
+    fn on_machine(
+        &self,
+        ready: &Ready,
+        made: (&mut Job<'_>, &Options),
+        program: &[u8],
+    ) -> Result<Option<Refused>, String> {
+        let Some(machine) = &ready.machine else { return Ok(None) };
+        let name = "the program";
+        let (fitted, _) = machine::of_post(&ready.post, machine, made, &ready.proof, (Cursor::new(program), name))?;
+        let diags = fitted.findings.iter().map(|finding| machine::diag(finding, name, &[&self.job]));
+        let diags: Vec<Diag> = diags.filter(Diag::is_error).collect();
+        Ok((!diags.is_empty()).then_some(Refused { diags, message: String::new() }))
     }
 
     fn compared(
@@ -211,7 +227,7 @@ impl Case {
     }
 
     fn program(&self, program: &Program, ready: &Ready, update: bool, colour: bool) -> Result<End, String> {
-        if let (Verdict::NotProven(why), true) = (&program.verdict, self.require_proof) {
+        if let (Verdict::NotProven(why), true) = (&program.verdict, ready.require_proof) {
             return Ok(End::Failed(format!(
                 "the program is not proven, and postform.toml requires a proof: {}",
                 why.why
@@ -285,7 +301,12 @@ impl Case {
             if codes.contains(&code.as_str()) && may_be_expected(&code) {
                 return Ok(End::Passed);
             }
-            expected = format!("{code} was expected, but {first} was reported\n");
+            expected = match codes.contains(&code.as_str()) {
+                true => {
+                    format!("{code} can't be an expected result: the form or the machine does not cause this error\n")
+                }
+                false => format!("{code} was expected, but {first} was reported\n"),
+            };
         }
         diags.iter_mut().for_each(|diag| place_in(&files::name(&self.job), diag));
         let shown =
@@ -309,10 +330,21 @@ impl Case {
     }
 }
 
-/// Whether this error can be an expected result. The result is `false` for errors of the job (PJ), of the proof (PV)
-/// and of postform itself (PX).
+/// The codes of errors that can be expected results, by their first letters: errors of rendering (PR), a tap that only a
+/// control can make (PC021), and a program that does not fit into the machine (PM). All other errors are mistakes in the
+/// job or the form.
+const EXPECTED: [&str; 3] = ["PR", "PC021", "PM"];
+
+/// Whether this error can be an expected result.
 pub fn may_be_expected(code: &str) -> bool {
-    !["PJ", "PV", "PX"].iter().any(|family| code.starts_with(family))
+    EXPECTED.iter().any(|first| code.starts_with(first))
+}
+
+/// Whether the job has a program number. A JSON job without a number has forgotten it; in other formats, a job may lack
+/// the number.
+fn has_number(job: &mut Job<'_>, ready: &Ready) -> bool {
+    matches!(job.format(), Format::Json | Format::JsonLines)
+        || !matches!(ready.post.file_name(job.again(), &ready.options), Ok((_, None)))
 }
 
 fn side(path: &Path, bytes: Vec<u8>) -> Result<Side, String> {

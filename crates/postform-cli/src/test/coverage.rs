@@ -21,9 +21,9 @@ pub struct Covered {
 pub fn of(posts: &Posts, tried: &[Tried]) -> Vec<Covered> {
     let mut all = Vec::new();
     for (at, entry) in posts.all().iter().enumerate() {
-        let Ok(ready) = &entry.ready else { continue };
+        let (Ok(ready), true) = (&entry.ready, posts.first_of(at) == at) else { continue };
         let files = &ready.checked.files;
-        let own = tried.iter().filter(|tried| tried.case.form == at);
+        let own = tried.iter().filter(|tried| posts.first_of(tried.case.form) == at);
         let line_of = |&(file, at): &(u32, u32)| Some((file, files.get(file as usize)?.line(at)));
         let printed: HashSet<(u32, usize)> = own.flat_map(|tried| &tried.printed).filter_map(line_of).collect();
         let form = &ready.checked.form;

@@ -96,11 +96,11 @@ impl Found {
         }
         let mut count = 0;
         let add = |found: &mut Found, form: usize, expected: PathBuf, cycles: Cycles, wanted: Wanted| {
-            let (job, tolerance, require_proof) = (job.to_path_buf(), config.test.tolerance, config.require_proof);
+            let (job, tolerance) = (job.to_path_buf(), config.test.tolerance);
             let is_new = !found.cases.iter().any(|case| case.expected == expected && case.form == form);
             if is_new {
                 let clock = clock.clone();
-                found.cases.push(Case { job, form, expected, cycles, wanted, ignore, tolerance, clock, require_proof });
+                found.cases.push(Case { job, form, expected, cycles, wanted, ignore, tolerance, clock });
             }
         };
         for path in beside {
@@ -116,7 +116,7 @@ impl Found {
             let form = match form_name {
                 "" => match posts.are_named() {
                     true => continue,
-                    false if own_form.is_file() => Some(posts.entry(&own_form, config.test.post.as_deref())?),
+                    false if own_form.is_file() => Some(posts.entry(&own_form, &config)?),
                     false => forms.first().copied().filter(|_| forms.len() == 1),
                 },
                 _ => forms.iter().copied().find(|form| posts.get(*form).name == form_name),

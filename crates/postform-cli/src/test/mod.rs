@@ -27,9 +27,9 @@ pub fn run(args: &TestArgs, colour: Colour) -> Result<Ending, String> {
     if let Some(form) = &args.new {
         let folders = folders(args);
         let [folder] = folders.as_slice() else { return Err("error: --new takes one folder".to_owned()) };
-        return standard::write(form, folder);
+        return standard::write(form, args.post.as_deref(), folder);
     }
-    let mut posts = Posts::named(&args.forms)?;
+    let mut posts = Posts::named(args)?;
     let mut found = Found::default();
     for path in folders(args) {
         found.search(&path, &mut posts, args)?;

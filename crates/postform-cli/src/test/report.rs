@@ -37,7 +37,7 @@ impl Report<'_> {
     pub fn sentence(&self) -> String {
         let number = |list: Vec<String>| list.into_iter().collect::<std::collections::BTreeSet<_>>().len();
         let jobs = number(self.tried.iter().map(|tried| files::name(&tried.case.job)).collect());
-        let forms = number(self.tried.iter().map(|tried| tried.case.form.to_string()).collect());
+        let forms = number(self.tried.iter().map(|tried| self.posts.first_of(tried.case.form).to_string()).collect());
         let of = |name: &str| self.tried.iter().filter(|tried| tried.end.name() == name).count();
         let mut text =
             format!("{}, {}: {}", count(jobs, "case"), count(forms, "form"), count(self.tried.len(), "program"));
@@ -74,7 +74,8 @@ impl Report<'_> {
                     count(own, "program")
                 );
             }
-            if own == 0 && self.posts.single.contains(&form) {
+            let is_tried = |tried: &Tried| self.posts.first_of(tried.case.form) == form;
+            if self.posts.single.contains(&form) && !self.tried.iter().any(is_tried) {
                 _ = writeln!(text, "{}: no job has an expected program of this form", files::name(&entry.path));
             }
         }

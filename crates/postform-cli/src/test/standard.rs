@@ -8,6 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use postform::internals::lang::{Machine, UnitChoice};
 
 use super::super::Ending;
+use super::super::config::Config;
 use super::super::files::{self, io_message};
 use super::super::output::{self, write_new};
 use super::case::{Case, may_be_expected};
@@ -15,9 +16,15 @@ use super::cases::{BEAM, LATHE, MILL, WIRE};
 use super::posts::Ready;
 
 /// Writes the cases into a folder. Each case is a job with the program that the form prints. Existing files stay.
-pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
+pub fn write(form: &Path, post: Option<&str>, folder: &Path) -> Result<Ending, String> {
     files::check_regular(form)?;
-    let ready = Ready::of(form, None)?;
+    // a folder without postform.toml gets its own one, which hides those of the folders above
+    let config = match folder.join("postform.toml").is_file() {
+        true => Config::near(&folder.join("job.json"))?,
+        false => Config::default(),
+    };
+    let post = post.or(config.test.post.as_deref());
+    let ready = Ready::of(form, post, &config)?;
     let name = form.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let settings = &ready.checked.form.settings;
     let cases = match settings.machine {
@@ -59,7 +66,8 @@ pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
     let config = folder.join("postform.toml");
     let from_there = relative(folder, form)?;
     let said = toml_string(&from_there.to_string_lossy());
-    let written = new(&config, format!("[test]\nforms = [{said}]\n").as_bytes())?;
+    let of_post = post.map_or(String::new(), |post| format!("post = {}\n", toml_string(post)));
+    let written = new(&config, format!("[test]\nforms = [{said}]\n{of_post}").as_bytes())?;
     let mut text = format!("{}: {printed} programs of {} jobs\n", files::name(folder), cases.len());
     if !refused.is_empty() {
         text += &format!(

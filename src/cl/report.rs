@@ -5,7 +5,7 @@ use crate::diag::{Code, Diag, Location};
 use crate::remarks::Remarks;
 use crate::toolpath::Place;
 
-/// The results of reading a CL file, except its events.
+/// The results of reading a job, except its events.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// The system that wrote the file.
@@ -16,6 +16,8 @@ pub struct Report {
     pub warnings: Vec<Diag>,
     /// Facts that the file contains, such as coordinate systems and names of tool paths.
     pub facts: Vec<String>,
+    /// Number of operations that the selection of the reading leaves out.
+    pub left_out: u64,
     /// Major words that are unknown.
     unknown: Vec<Unknown>,
 }

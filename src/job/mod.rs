@@ -273,7 +273,12 @@ impl<'a> Job<'a> {
         let selection = self.reading.select.clone();
         let read = match selection.is_all() {
             true => self.read_on(sink),
-            false => self.read_on(&mut Selecting::new(sink, &selection, control)),
+            false => {
+                let mut selecting = Selecting::new(sink, &selection, control);
+                let read = self.read_on(&mut selecting);
+                self.report.left_out = selecting.skipped;
+                read
+            }
         };
         // a reader that detects changes to its file reports them here
         if let Input::File(input) = &mut self.input {

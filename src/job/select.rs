@@ -6,7 +6,8 @@
 //! position that the tool would have reached. If a state of a left-out operation can't be added, the operation after it is
 //! refused.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
+use std::fmt::Display;
 
 use super::held::{Held, UPRIGHT, turned};
 use super::left_out_text::{Left, Other};
@@ -25,7 +26,7 @@ pub struct Selection {
     pub only: Vec<u32>,
     /// Skips operations with these tools.
     pub skip: Vec<u32>,
-    /// Selects only the operation with this number, counted from 1.
+    /// Selects only the operation with this number, counted from 1 among the operations whose tools are selected.
     pub operation: Option<u64>,
     /// Selects only operations that begin in this work offset; `Some(None)`: operations before the job's first work
     /// offset.
@@ -37,12 +38,17 @@ impl Selection {
     pub fn is_all(&self) -> bool {
         *self == Selection::default()
     }
+
+    /// All tools that the selection names.
+    fn tools(&self) -> impl Iterator<Item = u32> {
+        self.from.into_iter().chain(self.until).chain(self.only.iter().copied()).chain(self.skip.iter().copied())
+    }
 }
 
 /// Progress of a selection through the job.
 #[derive(Clone, Copy, Default)]
 struct Progress {
-    /// Number of operations so far.
+    /// Number of operations so far whose tools are selected.
     count: u64,
     begun: bool,
     /// Whether an operation with the last tool has begun.
@@ -53,8 +59,9 @@ struct Progress {
 impl Progress {
     /// Whether the next operation is selected, given its tool and work offset.
     fn takes(&mut self, selection: &Selection, tool: Option<f64>, work: Option<f64>) -> bool {
-        self.count += 1;
-        self.takes_tool(selection, tool)
+        let takes_tool = self.takes_tool(selection, tool);
+        self.count += u64::from(takes_tool);
+        takes_tool
             && selection.operation.is_none_or(|operation| operation == self.count)
             && selection.work.is_none_or(|wanted| wanted == work)
     }
@@ -95,6 +102,8 @@ pub(super) struct Selecting<'s> {
     at: Axes,
     tools: Vec<f64>,
     taken: u64,
+    /// Number of operations that were left out.
+    pub skipped: u64,
 }
 
 impl<'s> Selecting<'s> {
@@ -114,6 +123,7 @@ impl<'s> Selecting<'s> {
             at: Axes::default(),
             tools: Vec::new(),
             taken: 0,
+            skipped: 0,
         }
     }
 
@@ -127,6 +137,7 @@ impl<'s> Selecting<'s> {
         self.takes = self.progress.takes(self.selection, tool, self.held.work);
         if !self.takes {
             self.left_out = true;
+            self.skipped += 1;
             return Flow::Continue(());
         }
         self.taken += 1;
@@ -230,6 +241,22 @@ impl<'s> Selecting<'s> {
         self.sink.event(event, place)
     }
 
+    /// Checks at the end of the job that the job has all tools of the selection, and that an operation was selected.
+    fn selects_operations(&self) -> Flow {
+        let has = |tool: u32| self.tools.contains(&f64::from(tool));
+        let unknown: BTreeSet<u32> = self.selection.tools().filter(|tool| !has(*tool)).collect();
+        let what = if !unknown.is_empty() {
+            format!("the job has no {}", listed(unknown))
+        } else if self.taken == 0 && self.skipped > 0 {
+            "no operation is selected".to_owned()
+        } else {
+            return Flow::Continue(());
+        };
+        let tools = if self.tools.is_empty() { "none".to_owned() } else { listed(&self.tools) };
+        let diag = Diag::new(Code::PJ006, format!("{what}: the tools of the job are {tools}"));
+        Flow::Break(diag.help("select tools of the job").into())
+    }
+
     /// The head, without the tools that are left out.
     fn start(&mut self, start: &Start, place: Place) -> Flow {
         let Some(order) = &start.tool_order else { return self.sink.event(Event::Start(start), place) };
@@ -248,11 +275,7 @@ impl Sink for Selecting<'_> {
             Event::Start(start) => return self.start(start, place),
             Event::ToolChange(change) => return self.change(change, place),
             Event::SubStart(number) => self.subprogram = Some(key(number)),
-            Event::Finish if self.taken == 0 && !self.tools.is_empty() => {
-                let tools: Vec<String> = self.tools.iter().map(|tool| format!("T{tool}")).collect();
-                let message = format!("no operation is selected: the job has {}", tools.join(", "));
-                return Flow::Break(Diag::new(Code::PJ006, message).help("select tools of the job").into());
-            }
+            Event::Finish => self.selects_operations()?,
             _ => {}
         }
         if let Some(number) = self.subprogram {
@@ -273,6 +296,11 @@ impl Sink for Selecting<'_> {
         self.fills &= !matches!(event, Event::Rapid(_) | Event::Hole(_));
         self.pass(event, place)
     }
+}
+
+/// Tools in a message: `T1, T2`.
+fn listed(tools: impl IntoIterator<Item = impl Display>) -> String {
+    tools.into_iter().map(|tool| format!("T{tool}")).collect::<Vec<_>>().join(", ")
 }
 
 /// The error that an operation can't be printed without the operations that are left out.

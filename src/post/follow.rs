@@ -61,9 +61,11 @@ impl Post {
         };
         let read = read_for(Some(&self.0.program.settings), &mut job, &mut follower);
         follower.look();
-        let mut notes = job.take_report().warnings;
+        let report = job.take_report();
+        let (mut notes, left_out) = (report.warnings, report.left_out);
         notes.extend_from_slice(follower.renderer.notes());
-        let rendered = Rendered { notes, lines: follower.renderer.lines(), file_name: follower.renderer.file_name() };
+        let (lines, file_name) = (follower.renderer.lines(), follower.renderer.file_name());
+        let rendered = Rendered { notes, left_out, lines, file_name };
         let text = String::from_utf8_lossy(&follower.text).into_owned();
         let verdict = Verdict::not_asked_for();
         let program = Program { text, rendered, trace: follower.trace, verdict };

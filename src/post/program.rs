@@ -67,6 +67,8 @@ impl AsRef<str> for Program {
 pub struct Rendered {
     /// Warnings and notes about the job and about printing it. Each kind of warning or note occurs only once.
     pub notes: Vec<Diag>,
+    /// Number of operations of the job that are not in the program, because they are not selected.
+    pub left_out: u64,
     /// Number of lines in the program.
     pub lines: u64,
     /// The file name, which the form determines by ProgramName and Extension.

@@ -138,13 +138,14 @@ impl Post {
         if let Some(error) = printer.failure {
             read = Err(Error::of_io(ErrorKind::Output, error));
         }
-        let mut notes = job.take_report().warnings;
+        let report = job.take_report();
+        let (mut notes, left_out) = (report.warnings, report.left_out);
         notes.extend_from_slice(printer.renderer.notes());
         job.name_places(&mut notes);
         match read {
             Ok(()) => {
                 let (lines, file_name) = (printer.renderer.lines(), printer.renderer.file_name());
-                Ok(Rendered { notes, lines, file_name })
+                Ok(Rendered { notes, left_out, lines, file_name })
             }
             Err(error) => Err(job.names(error).after(notes, self.files())),
         }

@@ -163,6 +163,12 @@ fn a_job_is_split_by_tool_operation_and_work_offset() {
     let output = split(&["--split", "operation", "--name", "O{number}-{operation}"]);
     assert_eq!(last(&output), "7 programs, none failed");
     assert!(folder.has("nc/O1001-OP01.nc") && folder.has("nc/O1007-OP07.nc"));
+    assert!(!err(&output).contains("only a part"), "{}", err(&output));
+    // the operations of a selection are counted from 1
+    let output = split(&["--split", "operation", "--only", "3,4", "--name", "only-{operation}"]);
+    assert_eq!(last(&output), "2 programs, none failed");
+    assert!(folder.read("nc/only-OP01.nc").contains("T3 M6") && folder.read("nc/only-OP02.nc").contains("T4 M6"));
+    assert!(err(&output).contains("only a part of jobs/bracket/job.json is printed"), "{}", err(&output));
     let output = split(&["--split", "work"]);
     assert_eq!(last(&output), "2 programs, none failed");
     assert!(folder.read("nc/bracket-W2.nc").contains("G55") && !folder.read("nc/bracket-W1.nc").contains("G55"));

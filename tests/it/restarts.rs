@@ -390,8 +390,24 @@ fn a_part_of_a_job_is_taken() {
     assert_eq!(tools(&["--until", "2"]), "T1 T2");
     assert_eq!(tools(&["--only", "2,T5"]), "T2 T5");
     assert_eq!(tools(&["--skip", "1,3", "--until", "4"]), "T2 T4");
-    let none = folder.run(&["render", "job.json", "--form", &form, "--only", "9"]);
-    assert!(none.status.code() == Some(1) && err(&none).contains("the job has T1, T2, T3, T4, T5"), "{}", err(&none));
+    // every named tool must be a tool of the job, so that a typing error does not print another selection
+    for (selection, wrong) in [
+        ("--only 9", "the job has no T9"),
+        ("--only 3,9", "the job has no T9"),
+        ("--skip 33", "the job has no T33"),
+        ("--until 9 --skip 8", "the job has no T8, T9"),
+        ("--from-tool 7", "the job has no T7"),
+        ("--from-tool 5 --until 3", "no operation is selected"),
+    ] {
+        let arguments: Vec<_> =
+            ["render", "job.json", "--form", &form].into_iter().chain(selection.split(' ')).collect();
+        let run = folder.run(&arguments);
+        let message = format!("{wrong}: the tools of the job are T1, T2, T3, T4, T5");
+        assert!(run.status.code() == Some(1) && err(&run).contains(&message), "{selection}: {}", err(&run));
+    }
+    let selects = |selection| err(&folder.run(&["render", "job.json", "--form", &form, "--until", selection]));
+    assert!(selects("4").contains("only a part of the job is printed"), "{}", selects("4"));
+    assert!(!selects("5").contains("only a part"), "no operation is left out: {}", selects("5"));
     // the work offset of a skipped operation still applies, its spindle and coolant end with its tool, and missing axes of the position are filled in
     folder.write(
         "job.json",

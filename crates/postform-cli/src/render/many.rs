@@ -171,6 +171,10 @@ fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) ->
     match found {
         Ok(found) => {
             let numbers = |at: usize| Some((found.number? as u32).saturating_add(at as u32));
+            if found.left_out > 0 && !args.options.quiet {
+                let job = files::name(job);
+                message(&format!("only a part of {job} is printed: its other operations are not in the programs"));
+            }
             let parts = found.parts.iter().enumerate();
             parts.map(|(at, part)| planned(Some(*part), numbers(at), Ok(PathBuf::new()))).collect()
         }

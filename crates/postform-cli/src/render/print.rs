@@ -87,14 +87,16 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         None => (prepared.post.render_parts(job.again(), &options, &mut take), None),
     };
     drop(progress);
-    if task.part.is_none() && !args.read.select.selection().is_all() && !args.options.quiet {
-        message("only a part of the job is printed: its other operations are not in the program");
-    }
     let mut notes = match &printed {
         Ok(rendered) => rendered.notes.clone(),
         Err(error) => error.findings().diags.iter().filter(|diag| !diag.is_error()).cloned().collect(),
     };
-    let file_name = printed.as_ref().map(|rendered| rendered.file_name.clone()).unwrap_or_default();
+    let (file_name, left_out) =
+        printed.as_ref().map_or((String::new(), 0), |rendered| (rendered.file_name.clone(), rendered.left_out));
+    // the operations in the other parts of a job are not left out
+    if left_out > 0 && !task.part.is_some_and(Part::selects_operations) && !args.options.quiet {
+        message("only a part of the job is printed: its other operations are not in the program");
+    }
     notes.iter_mut().for_each(|diag| place_in_jobs(task.jobs, diag));
     let denied = args.options.denies_warnings() && notes.iter().any(|diag| diag.severity == Severity::Warning);
     notes.retain(|diag| args.options.shows(diag));

@@ -30,6 +30,11 @@ impl Part {
         }
     }
 
+    /// Whether the part consists of selected operations. The operations of a setup are a job of their own.
+    pub fn selects_operations(self) -> bool {
+        !matches!(self, Part::Setup(_))
+    }
+
     /// The part's name in file names: `T3`, `OP02`, `G54`, `SETUP1`.
     pub fn name(self) -> String {
         match self {
@@ -50,6 +55,8 @@ pub struct Parts {
     pub parts: Vec<Part>,
     /// The number of the job's program.
     pub number: Option<f64>,
+    /// Number of operations that are in none of the parts, because they are not selected.
+    pub left_out: u64,
 }
 
 /// Reads a job and lists its parts.
@@ -62,12 +69,13 @@ pub fn parts(job: &mut Job<'_>, by: SplitArg) -> Result<Parts, Error> {
         // each setup is a job of its own, with the same head
         job.reading.setup = Some(1);
     }
-    let mut seen =
-        Seen { by, operations: 0, in_subprogram: false, work: None, found: Parts { parts: Vec::new(), number: None } };
+    let found = Parts { parts: Vec::new(), number: None, left_out: 0 };
+    let mut seen = Seen { by, operations: 0, in_subprogram: false, work: None, found };
     job.read(&mut seen)?;
     let mut found = seen.found;
-    if by == SplitArg::Setup {
-        found.parts = (1..=setups).map(Part::Setup).collect();
+    match by {
+        SplitArg::Setup => found.parts = (1..=setups).map(Part::Setup).collect(),
+        _ => found.left_out = job.report().left_out,
     }
     Ok(found)
 }

@@ -406,6 +406,31 @@ fn compressed_jobs_and_programs() {
     folder.write("parts/drill.cl.gz", packer.finish().unwrap());
     let output = folder.run(&["test", "parts", "--form", "haas.pf", "--update"]);
     assert_eq!(output.status.code(), Some(0), "{}{}", out(&output), err(&output));
+    // the name of the program is that of the job without `.gz`, and of the folder for a file called `job`
+    for name in ["left", "right"] {
+        let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        packer.write_all(&cl).unwrap();
+        folder.write(&format!("packed/{name}/job.cl.gz"), packer.finish().unwrap());
+    }
+    let output =
+        folder.run(&["render", "packed", "parts", "--form", "haas.pf", "--program", "1", "--out-dir", "names"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = folder.run(&[
+        "render",
+        "parts",
+        "--form",
+        "haas.pf",
+        "--program",
+        "1",
+        "--out-dir",
+        "names",
+        "--split",
+        "tool",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    for name in ["left.nc", "right.nc", "drill.nc", "drill-T1.nc"] {
+        assert!(folder.has(&format!("names/{name}")), "{name}");
+    }
     folder.write("cut.nc.gz", &packed[..packed.len() / 2]);
     let output = folder.run(&["check", "cut.nc.gz"]);
     assert_eq!(output.status.code(), Some(2));

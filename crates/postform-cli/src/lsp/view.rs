@@ -16,6 +16,7 @@ use super::uri;
 use crate::callers;
 use crate::config::Config;
 use crate::files;
+use crate::folders::stem_of_job;
 use crate::forms::FormFile;
 
 /// Largest job that is printed while the user types.
@@ -198,7 +199,7 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
 
 /// The display name of a job: its file without extension; for a file called `job`, its folder.
 fn job_name(path: &Path) -> String {
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = stem_of_job(path);
     let folder = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
     postform::internals::terminal::escaped(&if stem == "job" { folder.unwrap_or(stem) } else { stem })
 }

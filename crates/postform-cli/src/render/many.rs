@@ -10,6 +10,7 @@ use super::super::args::{RenderArgs, SplitArg};
 use super::super::config::Config;
 use super::super::each::each_on;
 use super::super::files::{self, io_message};
+use super::super::packed::unpacked_name;
 use super::super::report::{Reporter, count, stopped};
 use super::super::say::{kept, message, say};
 use super::super::{Ending, inputs, many};
@@ -170,11 +171,11 @@ fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) ->
     });
     match found {
         Ok(found) => {
-            let numbers = |at: usize| Some((found.number? as u32).saturating_add(at as u32));
             if found.left_out > 0 && !args.options.quiet {
                 let job = files::name(job);
                 message(&format!("only a part of {job} is printed: its other operations are not in the programs"));
             }
+            let numbers = |at: usize| Some((found.number? as u32).saturating_add(at as u32));
             let parts = found.parts.iter().enumerate();
             parts.map(|(at, part)| planned(Some(*part), numbers(at), Ok(PathBuf::new()))).collect()
         }
@@ -210,9 +211,10 @@ fn name(
     Ok(Ok((name, number)))
 }
 
-/// The file name of a job; a file called `job` gets the name of its folder.
+/// The file name of a job, without the `.gz` of a compressed job; a file called `job` gets the name of its folder.
 fn job_name(job: &Path) -> String {
-    let name = job.file_name().unwrap_or_default().to_string_lossy();
+    let unpacked = unpacked_name(job);
+    let name = unpacked.as_deref().unwrap_or(job).file_name().unwrap_or_default().to_string_lossy();
     let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
     let folder = files::folder(job).canonicalize().ok();
     match folder.as_deref().and_then(Path::file_name) {

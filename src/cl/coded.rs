@@ -88,9 +88,9 @@ pub(super) fn read_options(
                 continue;
             }
             Word::Number(value) if at == 0 && whole => return positional(notes, coded, words, *value, feed),
-            Word::Number(value) => {
+            number @ (Word::Number(_) | Word::Parted(_)) => {
                 let help = "put a word before the number, as DEPTH, STEP or MMPM";
-                return fault(Code::PC037, format!("{value} has no word before it"), help);
+                return fault(Code::PC037, format!("{number} has no word before it"), help);
             }
         };
         let Some(row) = OPTIONS.iter().find(|row| row.word == name) else {

@@ -244,6 +244,9 @@ impl<'s> Job<'s> {
                 change.tool = Some(Tool { number, ..Tool::default() });
             }
             change.spindle = Some(self.spindle.in_force()).filter(|spindle| *spindle != Default::default());
+            if change.spindle.is_none_or(|spindle| spindle.speed.is_none()) {
+                self.notes.without_speed = Some((place.line, self.notes.place.line));
+            }
             change.name = self.tools.operation.take();
             if let Some(tool) = &mut change.tool {
                 tool.diameter = self.tools.diameter.get().copied().filter(|_| self.machine == Machine::Mill);

@@ -3,6 +3,7 @@
 use super::cycle;
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
+use super::ignored::ignore_with_number;
 use super::machine::no_cutcom_waits;
 use super::report::Notes;
 use super::state::State;
@@ -108,13 +109,15 @@ fn length_register(name: &str, tool: f64, words: &[Word], notes: &mut Notes<'_>)
             }
             (_, Some(kind @ ("ADJUST" | "OFSETNO" | "OSETNO"))) => match words.next() {
                 Some(Word::Number(number)) => register = Some(*number),
-                Some(word) if word.is("OFF") => register = None,
+                Some(word) if word.is("OFF") => {
+                    register = None;
+                    let message =
+                        format!("{kind},OFF of {name} is ignored: forms print the length register of the tool");
+                    notes.warn(Code::PL008, message, "check the H word in the program");
+                }
                 _ => return fault(Code::PL001, format!("{kind} without its number"), format!("write {kind},1")),
             },
-            (_, Some("LENGTH" | "SPINDL" | "IN")) => {
-                words.next_if(|word| word.number().is_some());
-            }
-            (_, Some("MILL" | "DRILL" | "TURN" | "AUTO" | "MANUAL")) => {}
+            (_, Some(word)) if ignore_with_number("LOADTL", word, &mut words, notes) => {}
             _ => {
                 return fault(Code::PL002, format!("{name} can't take `{word}`"), format!("write {name}/1"));
             }

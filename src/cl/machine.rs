@@ -3,6 +3,7 @@
 use super::cycle::follow_spindle;
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
+use super::ignored::{ignore, ignore_with_number};
 use super::job::Job;
 use super::state::{Cutcom, Cycle};
 use super::words::Word;
@@ -62,9 +63,7 @@ fn spindle(words: &[Word], job: &mut Job<'_>) -> Done<Spindle> {
                     Some(max) => once(&mut said.max, max, word)?,
                     None => return fault(Code::PL001, "MAXRPM without its number", "write MAXRPM,2000"),
                 },
-                "RANGE" | "LOW" | "MEDIUM" | "HIGH" => {
-                    words.next_if(|word| word.number().is_some());
-                }
+                _ if ignore_with_number("SPINDL", name, &mut words, &mut job.notes) => {}
                 _ => {
                     let help = "write SPINDL/1200,RPM,CLW";
                     return fault(Code::PL002, format!("SPINDL can't take `{name}`"), help);
@@ -147,12 +146,11 @@ pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &m
         "OFF" => Some(None),
         _ => None,
     };
-    let known = ["XYPLAN", "OSETNO", "OFSETNO", "NORMDS"];
     let mut asked = None;
     for word in words {
         match (word, word.name().and_then(side)) {
             (_, Some(side)) => once(&mut asked, side, word)?,
-            (Word::Name(name), _) if known.contains(&name.as_str()) => {}
+            (Word::Name(name), _) if ignore("CUTCOM", name, &mut job.notes) => {}
             (Word::Number(_), _) => job.notes.warn(
                 Code::PL008,
                 "the offset register of the tool is printed, not the register of CUTCOM",

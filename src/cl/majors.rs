@@ -4,6 +4,7 @@ use super::arcs::circle;
 use super::dialect::{Dialect, Sense};
 use super::fault::{Done, fault};
 use super::feed::{delay, fedrat};
+use super::ignored::{ignore_rest, ignore_statement};
 use super::job::{Job, Waiting};
 use super::load::{load, tool_path};
 use super::machine::{coolnt, cutcom, spindl, units};
@@ -60,6 +61,8 @@ pub(super) enum Major {
     Turret,
     /// Selects an offset register of the tool.
     Register,
+    /// Clamps an axis.
+    Clamp,
     /// Known words that have no effect on motions.
     Ignored,
     Nurbs,
@@ -70,6 +73,13 @@ pub(super) enum Major {
 }
 
 impl Major {
+    /// Whether a number of the statement may have blanks inside, because no value of the program comes from the numbers of
+    /// the statement.
+    pub fn takes_no_number(self) -> bool {
+        use Major::{Clamp, EndOfPath, Ignored, Machin, None, Set, ToolPath, Unknown};
+        matches!(self, Ignored | Unknown | None | EndOfPath | ToolPath | Machin | Set | Clamp)
+    }
+
     /// Whether a statement may end with a comma, because no value of the program comes from its last words. Some systems
     /// continue such statements without `$`.
     pub fn may_end_with_comma(self) -> bool {
@@ -94,7 +104,7 @@ const MAJORS: &[(&str, Major)] = &[
     ("MULTAX", Major::Ignored), ("SELECT", Major::Ignored), ("SELCTL", Major::Ignored), ("PAINT", Major::Ignored),
     ("INTOL", Major::Ignored), ("OUTTOL", Major::Ignored), ("TOLER", Major::Ignored), ("AUTOPS", Major::Ignored),
     ("MODE", Major::Set), ("ARCSLP", Major::Ignored), ("CLEARP", Major::Ignored), ("SEQNO", Major::Ignored),
-    ("SETUP", Major::Ignored), ("TRNTYP", Major::Ignored), ("CLAMP", Major::Unknown),
+    ("SETUP", Major::Ignored), ("TRNTYP", Major::Ignored), ("CLAMP", Major::Clamp),
     ("OFSETNO", Major::Register), ("OSETNO", Major::Register), ("LINTOL", Major::Ignored), ("CLRSRF", Major::Ignored),
     ("TRACUT", Major::Refused), ("COPY", Major::Refused), ("INDEX", Major::Refused), ("BLOCK", Major::Refused),
     ("CALSUB", Major::Refused), ("DEFSUB", Major::Refused), ("ENDSUB", Major::Refused), ("MACRO", Major::Refused),
@@ -147,8 +157,11 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Cycle => super::cycle::cycle(words, state),
         Major::Units => units(words, job),
         Major::Delay => delay(words, job),
-        Major::Stop => job.between(Event::Stop(StopKind::Program)),
-        Major::Opstop => job.between(Event::Stop(StopKind::Optional)),
+        Major::Stop | Major::Opstop => {
+            ignore_rest(name, words, &mut job.notes);
+            let kind = if major == Major::Stop { StopKind::Program } else { StopKind::Optional };
+            job.between(Event::Stop(kind))
+        }
         Major::Trans => trans(words, &mut motion.shift, false),
         Major::Origin => trans(words, &mut motion.shift, true),
         Major::Tlaxis => tlaxis(words, state),
@@ -199,6 +212,10 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         }
         Major::Fini => super::cycle::end(cycle, job),
         Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
+        Major::Clamp => {
+            ignore_statement(name, words, "clamps of axes are not printed", &mut job.notes);
+            Ok(())
+        }
         Major::Unknown => unknown(name, words, job),
         Major::Thread => {
             let help = "let the CAM system write the passes of the thread, or write the thread into a job by hand";
@@ -238,6 +255,13 @@ fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
         let message = format!("the unknown word `{name}` is in front of {hidden}");
         return fault(Code::PL001, message, "remove the word, or put it on a separate line");
     }
+    // a statement without a slash, and a number: RAPID120 is read from `RAPID   120`
+    let bare = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    if words.is_empty() && bare != name && !major(bare).takes_no_number() {
+        let help =
+            format!("write {bare}/.., or remove the number; if it is the number of a punched card, remove all of them");
+        return fault(Code::PL001, format!("a number directly after {bare}"), help);
+    }
     job.notes.unknown(name, || did_you_mean(name, MAJORS.iter().map(|(word, _)| *word)));
     Ok(())
 }
@@ -269,6 +293,7 @@ fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
         let help = "let the CAM system write absolute positions";
         return fault(Code::PL004, format!("{name} switches to incremental positions"), help);
     }
+    ignore_statement(name, words, "its effect is unknown", &mut job.notes);
     Ok(())
 }
 

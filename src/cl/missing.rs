@@ -30,8 +30,8 @@ pub(super) fn no_tool<T>(job: &Job<'_>, option: &str) -> Done<T> {
             format!("give the number of each tool with `{option}`"),
         ),
         None => (
-            "the file loads no tool".to_owned(),
-            format!("put LOADTL/1 before its first motion, or give the tool's number with `{option}`"),
+            "the file loads no tool before this line".to_owned(),
+            format!("put LOADTL/1 before the first motion, stop or dwell, or give the tool's number with `{option}`"),
         ),
     };
     fault(Code::PJ006, message, help + &others(job, Missing::Tool))

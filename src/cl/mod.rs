@@ -10,6 +10,7 @@ mod fault;
 mod feed;
 mod feed_unit;
 mod holes;
+mod ignored;
 mod job;
 mod lines;
 mod load;

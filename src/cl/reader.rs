@@ -15,7 +15,7 @@ use super::report::Report;
 use super::setup::{Setup, Setups};
 use super::state::{Arcs, Cycle, Feeds, Motion, State};
 use super::texts::{Insert, lone_insert, text};
-use super::words::{Word, plain_goto, words};
+use super::words::{LINE_END, Word, plain_goto, words};
 use crate::diag::Code;
 use crate::source::text_of;
 use crate::toolpath::{Event, Flow, Place, ReadError, Sink, Stop};
@@ -154,6 +154,7 @@ impl Reader<'_> {
         self.joined.extend_from_slice(part.strip_suffix(b"~").unwrap_or(part));
         self.continues = goes_on || part.ends_with(b"~");
         if self.continues {
+            self.joined.push(LINE_END);
             return Ok(());
         }
         let text = std::mem::take(&mut self.joined);
@@ -189,6 +190,7 @@ impl Reader<'_> {
             );
         }
         let Some(name) = first.name().map(str::to_owned) else {
+            whole_numbers(&list)?;
             // UG writes several points after one GOTO, and some of its records continue without `$`
             return match self.major {
                 Major::Goto => goto_words(&list, &mut self.state),
@@ -202,6 +204,9 @@ impl Reader<'_> {
         let name = unnumbered(&name).to_owned();
         list.remove(0);
         self.major = major(&name);
+        if !self.major.takes_no_number() {
+            whole_numbers(&list)?;
+        }
         if ends_with_comma(&list) && !self.major.may_end_with_comma() {
             let help = "put `$` after the comma if the statement continues on the next line, or remove the comma";
             return fault(Code::PL001, format!("{name} ends with a comma: a part of it may be missing"), help);
@@ -240,11 +245,23 @@ impl Reader<'_> {
     fn placed(&self, stop: Stop) -> ReadError {
         let mut stop = stop.placed(|| self.state.job.notes.place.into());
         if let Stop::Wrong(diag) = &mut stop {
-            let help = diag.help.take().unwrap_or_default() + &self.state.job.notes.ignored();
+            let notes = &self.state.job.notes;
+            let help = diag.help.take().unwrap_or_default() + &notes.early(diag) + &notes.ignored();
             diag.help = Some(help).filter(|help| !help.is_empty());
         }
         stop.into()
     }
+}
+
+/// Checks that no number has blanks inside.
+fn whole_numbers(words: &[Word]) -> Done {
+    let Some(text) = words.iter().find_map(Word::parted) else { return Ok(()) };
+    let (one, two) = (text.replace(' ', ""), text.replace(' ', ","));
+    let help = format!(
+        "if it is one number, write {one}; if a comma is missing, write {two}; if the last digits are the number of a punched \
+         card (columns 73 to 80), remove the card numbers"
+    );
+    fault(Code::PL001, format!("a number with blanks inside: `{text}`"), help)
 }
 
 /// Whether one comma ends the statement. Several commas are empty fields, which CATIA writes.

@@ -63,6 +63,8 @@ pub(super) struct Notes<'r> {
     pub place: Place,
     /// Whether the caller named the CAM system.
     pub said: bool,
+    /// The line of the last tool change that was complete before it had a spindle speed, and the line that completed it.
+    pub without_speed: Option<(u64, u64)>,
 }
 
 impl<'r> Notes<'r> {
@@ -72,7 +74,7 @@ impl<'r> Notes<'r> {
         if said.is_some() {
             report.why = "as given".into();
         }
-        Notes { report, place: Place::default(), said: said.is_some() }
+        Notes { report, place: Place::default(), said: said.is_some(), without_speed: None }
     }
 
     /// The CAM system: named by the caller or recognised, otherwise GENER.
@@ -143,6 +145,20 @@ impl<'r> Notes<'r> {
             let help = near.map_or(check.to_owned(), |near| format!("{near} Else {check}"));
             let diag = Diag::new(Code::PL003, message).help(help);
             self.report.warnings.push(diag.place(Location::line(line)));
+        }
+    }
+
+    /// For an error in a tool change without a spindle speed: the line before which the speed is missing, as a line for the
+    /// help of the error; otherwise empty.
+    pub fn early(&self, diag: &Diag) -> String {
+        let line = diag.place.as_ref().and_then(|place| place.line);
+        match self.without_speed.filter(|(change, _)| line == Some(*change)) {
+            Some((change, end)) => {
+                format!(
+                    "\nthe tool change of line {change} has no spindle speed, because SPINDL is not before line {end}"
+                )
+            }
+            None => String::new(),
         }
     }
 

@@ -11,6 +11,8 @@ pub(super) enum Word {
     Number(f64),
     /// A name in capitals, or quoted text.
     Name(String),
+    /// Digits that would be one number without the blanks between them, such as `15 00`.
+    Parted(String),
     /// An empty field between two commas.
     Null,
 }
@@ -24,6 +26,11 @@ impl Word {
         if let Word::Name(name) = self { Some(name) } else { None }
     }
 
+    /// The text of digits with blanks between them.
+    pub(super) fn parted(&self) -> Option<&str> {
+        if let Word::Parted(text) = self { Some(text) } else { None }
+    }
+
     pub(super) fn is(&self, name: &str) -> bool {
         self.name() == Some(name)
     }
@@ -33,7 +40,7 @@ impl fmt::Display for Word {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Word::Number(value) => write!(f, "{value}"),
-            Word::Name(name) => f.write_str(name),
+            Word::Name(text) | Word::Parted(text) => f.write_str(text),
             Word::Null => f.write_str("nothing"),
         }
     }
@@ -44,10 +51,18 @@ pub(super) fn numbers(words: &[Word]) -> Option<Vec<f64>> {
     words.iter().map(Word::number).collect()
 }
 
-/// Splits a statement into words at slashes, commas and parentheses. Spaces outside quotes are ignored. `Err`: the text of a
-/// number that is not finite.
+/// The end of a line in a statement that continues on the next line. It is a blank, also in quoted text.
+pub(super) const LINE_END: u8 = b'\r';
+
+/// A position of blanks in the text of a word. A word can't contain this character.
+const BLANKS: char = '\n';
+
+/// Splits a statement into words at slashes, commas and parentheses. Blanks outside quotes are ignored, but not between the
+/// digits of a number: a comma may be missing there, or the digits after the blanks are the number of a punched card. `Err`:
+/// the text of a number that is not finite.
 pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {
     let (mut list, mut word, mut quoted, mut before) = (Vec::new(), String::new(), false, b'\n');
+    let mut after_blanks = false;
     for &byte in text.iter().chain(b"\n") {
         match byte {
             b'\'' => quoted = !quoted,
@@ -59,9 +74,16 @@ pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {
                 }
                 before = byte;
                 word.clear();
+                after_blanks = false;
             }
-            b' ' | b'\t' | b'\r' if !quoted => {}
-            byte => word.push(char::from(if quoted { byte } else { byte.to_ascii_uppercase() })),
+            LINE_END => after_blanks = true,
+            b' ' | b'\t' if !quoted => after_blanks = true,
+            byte => {
+                if std::mem::take(&mut after_blanks) && !word.is_empty() {
+                    word.push(BLANKS);
+                }
+                word.push(char::from(if quoted { byte } else { byte.to_ascii_uppercase() }));
+            }
         }
     }
     Ok(list)
@@ -73,7 +95,19 @@ fn is_empty_field(before: u8, after: u8) -> bool {
     matches!((before, after), (b',' | b'/' | b'\n', b',') | (b',', b'\n'))
 }
 
-fn one(word: &str) -> Result<Word, String> {
+/// A word from its text. Blanks after the sign of a number are allowed.
+fn one(text: &str) -> Result<Word, String> {
+    let Some((before, _)) = text.split_once(BLANKS) else { return joined(text) };
+    match joined(&text.replace(BLANKS, ""))? {
+        Word::Number(_) if text.matches(BLANKS).count() > 1 || !matches!(before, "+" | "-") => {
+            Ok(Word::Parted(text.replace(BLANKS, " ")))
+        }
+        word => Ok(word),
+    }
+}
+
+/// A word from its text without blanks.
+fn joined(word: &str) -> Result<Word, String> {
     let numeric = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(Word::Number(value)),
@@ -158,8 +192,26 @@ mod tests {
         let fields = |text: &[u8]| words(text).unwrap().iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
         assert_eq!(fields(b"GOTO/,1,,2, "), "GOTO nothing 1 nothing 2 nothing");
         assert_eq!(fields(b"RAPID/"), "RAPID");
-        assert_eq!(words(b"SPINDL/ 15 00,1STPECK").unwrap()[1..], [Word::Number(1500.0), Word::Name("1STPECK".into())]);
+        assert_eq!(
+            words(b"SPINDL/ 1500 ,1ST PECK").unwrap()[1..],
+            [Word::Number(1500.0), Word::Name("1STPECK".into())]
+        );
         assert!(words(b"GOTO/1e999").is_err());
+    }
+
+    #[test]
+    fn digits_with_blanks_between_them_are_no_number() {
+        for (text, word) in [
+            (&b"15 00"[..], Word::Parted("15 00".into())),
+            (b"3.      120", Word::Parted("3. 120".into())),
+            (b"- 1 2", Word::Parted("- 1 2".into())),
+            (b"1\r2", Word::Parted("1 2".into())),
+            (b" - 3.5 ", Word::Number(-3.5)),
+            (b"'1 2'", Word::Name("1 2".into())),
+            (b"100 GO TO", Word::Name("100GOTO".into())),
+        ] {
+            assert_eq!(words(text).unwrap(), [word], "{}", text.escape_ascii());
+        }
     }
 
     #[test]

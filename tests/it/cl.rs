@@ -4,6 +4,7 @@ use crate::support;
 use std::fs;
 use std::sync::LazyLock;
 
+use crate::support::folder::{Folder, err};
 use crate::support::mill;
 use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, read_cl};
 use postform::internals::compile::Program;
@@ -86,8 +87,18 @@ fn the_spindle_may_come_after_the_first_rapids() {
     let lines = read(text, Options::default());
     assert_eq!(lines, ["M8", "G0 X0 Y0 Z50.", "X1."]);
     assert!(
-        read("UNITS/MM\nRAPID\nGOTO/0,0,1\nFINI", Options::default())[0].starts_with("PJ006 the file loads no tool")
+        read("UNITS/MM\nRAPID\nGOTO/0,0,1\nFINI", Options::default())[0]
+            .starts_with("PJ006 the file loads no tool before")
     );
+    let stop = read("UNITS/MM\nSTOP\nLOADTL/1\nFINI", Options::default());
+    assert_eq!(stop, ["PJ006 the file loads no tool before this line at 2:1"]);
+    // a tool change that a stop completes has no speed
+    let folder = Folder::new("speed-after-stop");
+    folder.write("job.cl", "UNITS/MM\nLOADTL/2\nSTOP\nSPINDL/900,CLW\nRAPID\nGOTO/0,0,1\nFINI\n");
+    let form = support::root().join("postforms/haas.pf");
+    let run = folder.run(&["render", "job.cl", "--program", "1", "--form", form.to_str().unwrap()]);
+    let help = "the tool change of line 2 has no spindle speed, because SPINDL is not before line 3";
+    assert!(err(&run).contains(help), "{}", err(&run));
     let assumed = Options { tool: Some(Assumed::One(3.0)), ..Options::default() };
     assert!(read("UNITS/MM\nSPINDL/9,CLW\nRAPID\nGOTO/0,0,1\nFINI", assumed)[0].starts_with("G0 X0"));
 }
@@ -932,6 +943,14 @@ fn a_statement_with_a_missing_value_is_not_read() {
     for (text, found) in [
         ("GOTO/10,20,-1,\n0,0,1", "PL001 GOTO ends with a comma: a part of it may be missing at 7:1"),
         ("GOTO/10,20,-1,,", "PL001 GOTO takes only numbers"),
+        // blanks between digits: a lost comma, or the number of a punched card in columns 73 to 80
+        ("GOTO/1,2,3 4", "PL001 a number with blanks inside: `3 4` at 7:1"),
+        ("GOTO/   1.0,   2.0,   -3.0              120", "PL001 a number with blanks inside: `-3.0 120`"),
+        ("GOTO/1,2,3$\n4", "PL001 a number with blanks inside: `3 4`"),
+        ("GOTO/1,0,10\n1 0,5,0", "PL001 a number with blanks inside: `1 0`"),
+        ("LOADTL/1  2", "PL001 a number with blanks inside: `1 2`"),
+        ("SPINDL/ 15 00", "PL001 a number with blanks inside: `15 00`"),
+        ("RAPID           130", "PL001 a number directly after RAPID"),
         ("LOADTL/2,,", "PL002 LOADTL can't take `nothing`"),
         ("FEDRAT/50,", "PL001 FEDRAT ends with a comma"),
         ("CYCLE/DRILL,DEPTH,5,MMPM,9,CLEAR,2,\nRETURN,20", "PL001 CYCLE ends with a comma"),
@@ -954,6 +973,7 @@ fn a_statement_with_a_missing_value_is_not_read() {
         assert!(error(text).starts_with(found), "{text}: {}", error(text));
     }
     // these statements give no value of the program
+    assert_eq!(body("SETUP/1 2\nMACHIN/MILL,1 2\nGOTO/1,0,10"), ["G1 X1. F100."]);
     assert_eq!(body("SELECT/1,\nINTOL/.01,\nGOTO/1,0,10"), ["G1 X1. F100."]);
     let by = |dialect, text: &str| {
         let options = Options { dialect: Some(dialect), end: true, ..Options::default() };
@@ -1016,10 +1036,37 @@ fn data_that_one_program_cannot_hold_is_reported() {
     assert!(!same.iter().any(|line| line.starts_with("PL008")), "{same:?}");
     let other = creo(&format!("{}GOTO/1,0,10\n{}GOTO/2,0,10", csys(0), csys(9)));
     assert!(other.last().unwrap().starts_with("PL008 this CSYS differs from the CSYS of line 8"), "{other:?}");
-    assert_eq!(
-        body("OFSETNO/5\nGOTO/1,0,10").last().unwrap(),
-        "PL008 OFSETNO 5 is ignored: the registers are those of LOADTL"
-    );
+    let load = "SPINDL/9,CLW\nRAPID\nGOTO/1,0,10";
+    for (text, warning) in [
+        ("OFSETNO/5", "OFSETNO 5 is ignored: the registers are those of LOADTL"),
+        ("SET/ADJUST,5", "SET/ADJUST,5 is ignored: its effect is unknown"),
+        ("SET/MODE,LASER", "SET/MODE,LASER is ignored: its effect is unknown"),
+        ("MODE/FOO", "MODE/FOO is ignored: its effect is unknown"),
+        ("CLAMP/ON", "CLAMP/ON is ignored: clamps of axes are not printed"),
+        ("CLAMP", "CLAMP is ignored: clamps of axes are not printed"),
+        ("STOP/5", "STOP/5 is printed as STOP: STOP takes no other words"),
+        ("OPSTOP/FOO", "OPSTOP/FOO is printed as OPSTOP: OPSTOP takes no other words"),
+        ("SPINDL/900,CLW,RANGE,2", "RANGE of SPINDL is ignored: the program does not select a gear range"),
+        ("SPINDL/900,HIGH", "HIGH of SPINDL is ignored: the program does not select a gear range"),
+        (
+            &format!("LOADTL/2,MANUAL\n{load}"),
+            "MANUAL of LOADTL is ignored: the program does not stop for a tool change by hand",
+        ),
+        (
+            &format!("LOADTL/2,ADJUST,OFF\n{load}"),
+            "ADJUST,OFF of LOADTL is ignored: forms print the length register of the tool",
+        ),
+    ] {
+        let lines = body(&format!("{text}\nGOTO/2,0,10"));
+        assert_eq!(lines.last().unwrap(), &format!("PL008 {warning}"), "{text}");
+    }
+    // these words have no effect that a program could have
+    for text in
+        ["SET/MODE,ABSOL", "MODE/MILL", "MODE/CIRCUL,5,2", &format!("LOADTL/2,IN,3,LENGTH,70,ADJUST,2,AUTO\n{load}")]
+    {
+        let lines = body(&format!("{text}\nGOTO/2,0,10"));
+        assert!(!lines.iter().any(|line| line.starts_with("PL")), "{text}: {lines:?}");
+    }
     let load = body("LOADTL/2,7\nSPINDL/9,CLW\nRAPID\nGOTO/1,0,10");
     assert_eq!(load.last().unwrap(), "PL008 the number 7 of LOADTL is ignored, because its meaning is unknown");
 }

@@ -251,6 +251,8 @@ fn jobs() {
             1,
             vec!["PJ004"],
         ),
+        ("a cut to no position", with("{\"line\":[]}"), 1, vec!["PJ003", "`line` gives no axis", "path[1]"]),
+        ("a rapid to no position", with("{\"rapid\":[null,null]}"), 1, vec!["PJ003", "`rapid` gives no axis"]),
         ("empty item", with("{}"), 1, vec!["PJ004", "is empty"]),
         ("two things in an item", with("{\"line\":[1,2],\"rapid\":[1,2]}"), 1, vec!["PJ005", "more than one action"]),
         (

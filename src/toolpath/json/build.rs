@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::convert::{arc_of, call_of, fault, not_negative, positive, spec_of, spindle_of, thread_of, tool_of, whole};
 use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SubprogramHead};
-use super::values::Number;
+use super::values::{Number, Position};
 use crate::diag::Code;
 use crate::toolpath::{
     About, Axes, Event, First, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, key,
@@ -165,9 +165,9 @@ impl<'s> Builder<'s> {
         let feed = item.feed.map(|f| positive("feed", f)).transpose()?;
         check_one(item)?;
         if let Some(to) = item.rapid {
-            self.push(Event::Rapid(to.0))
+            self.push(Event::Rapid(moving("rapid", to)?))
         } else if let Some(to) = item.line {
-            self.push(Event::Line { to: to.0, feed })
+            self.push(Event::Line { to: moving("line", to)?, feed })
         } else if let Some(arc) = &item.arc {
             let arc = arc_of(arc)?;
             self.push(Event::Arc { arc: &arc, feed })
@@ -327,6 +327,15 @@ impl<'s> Builder<'s> {
         }
         Ok(())
     }
+}
+
+/// The position of a move, which gives at least one axis.
+fn moving(key: &str, to: Position) -> Result<Axes, Stop> {
+    if to.0.given == 0 {
+        let help = "remove the item, or write a position, as [1, 2.5, null]";
+        return fault(Code::PJ003, format!("`{key}` gives no axis, so the item does nothing"), help);
+    }
+    Ok(to.0)
 }
 
 /// Checks that an item has exactly one main key. A feed or side that belongs to a move is not a main key.

@@ -851,6 +851,22 @@ fn the_command_and_its_formats() {
     assert_eq!(postform(&["diff", old, refused.to_str().unwrap(), "--motion"]).status.code(), Some(1));
 }
 
+/// Programs with different codes that are not simulated are not identical.
+#[test]
+fn other_codes_are_counted_in_the_verdict() {
+    let old = written("diff-codes-old.nc", BASE);
+    for (code, verdict) in [("M9", "identical: "), ("M31", "equivalent: ")] {
+        let text = BASE.replace("N160 ", &format!("N155 {code}\nN160 "));
+        let new = written(&format!("diff-codes-{code}.nc"), &text);
+        let output = postform(&["diff", "--motion", old.to_str().unwrap(), new.to_str().unwrap()]);
+        let said = String::from_utf8(output.stderr.clone()).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{code}: {said}");
+        assert!(said.starts_with(verdict), "{code}: {said}");
+        let counts = said.contains("1 cut after different codes that are not simulated");
+        assert_eq!(counts, code == "M31", "{code}: {said}");
+    }
+}
+
 #[test]
 fn forms_and_what_they_change() {
     let fanuc = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();

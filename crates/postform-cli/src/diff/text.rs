@@ -270,15 +270,18 @@ pub fn kind(summary: &Summary) -> String {
     if kinds.is_empty() { "other blocks".to_owned() } else { kinds.join(", ") }
 }
 
-/// Differences that do not make the motions different; empty if there are no such differences.
-fn left_out(found: &Motions) -> String {
-    let list = [
+/// Counts of differences, in words; a count of 0 is left out.
+fn counted(counts: &[(u64, &str, &str)]) -> Vec<String> {
+    let seen = counts.iter().filter(|(n, ..)| *n > 0);
+    seen.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect()
+}
+
+/// Differences that are not compared further.
+fn not_compared(found: &Motions) -> Vec<String> {
+    counted(&[
         (found.ways, "path", "between cuts with other rapids, nowhere lower than the old rapids"),
         (found.codes, "cut", "after different codes that are not simulated"),
-    ];
-    let seen = list.iter().filter(|(n, ..)| *n > 0);
-    let list: Vec<String> = seen.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();
-    if list.is_empty() { String::new() } else { format!("the same cuts; not compared: {}\n", list.join(", ")) }
+    ])
 }
 
 /// The result of the comparison of motions, in one line.
@@ -287,13 +290,8 @@ pub fn verdict(old: &Side, new: &Side, found: &Motions) -> String {
         return format!("different: the motions of {} differ from those of {}\n", new.name, old.name);
     }
     let cuts = count(found.cuts as usize, "cut");
-    let counted = [
-        (found.pecks, "hole", "with other pecks"),
-        (found.feeds, "feed", "rounded"),
-        (found.ways, "path", "between cuts with other rapids, nowhere lower than the old rapids"),
-    ];
-    let counted = counted.iter().filter(|(n, ..)| *n > 0);
-    let list: Vec<String> = counted.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();
+    let mut list = counted(&[(found.pecks, "hole", "with other pecks"), (found.feeds, "feed", "rounded")]);
+    list.extend(not_compared(found));
     match list.is_empty() {
         true => format!("identical: {} makes the motions of {} ({cuts})\n", new.name, old.name),
         false => format!("equivalent: {} makes the cuts of {} ({cuts}): {}\n", new.name, old.name, list.join(", ")),
@@ -302,7 +300,14 @@ pub fn verdict(old: &Side, new: &Side, found: &Motions) -> String {
 
 /// The first difference of motions, or everything that was not judged.
 pub fn motion(old: &Side, new: &Side, found: &Motions) -> String {
-    let Some(difference) = &found.difference else { return left_out(found) };
+    let Some(difference) = &found.difference else {
+        let list = not_compared(found);
+        return if list.is_empty() {
+            String::new()
+        } else {
+            format!("the same cuts; not compared: {}\n", list.join(", "))
+        };
+    };
     let mut text = format!("the motions differ: {}\n", escaped(&difference.message));
     for (sign, side, (line, block)) in [('-', old, &difference.blocks[0]), ('+', new, &difference.blocks[1])] {
         _ = match line {

@@ -46,7 +46,11 @@ impl State {
         self.keep_speed_out(row, block)?;
         self.check_fanuc_cycle(cycle, r, bottom, by_pitch.is_some())?;
         let own = |letter: u8| block.get(letter).filter(|_| row.runs.speed_out != Some(letter));
-        let times = match own(b'K').filter(|_| !self.k_shifts(motions, block)).or(own(b'L')) {
+        let [by_k, by_l] = [own(b'K').filter(|_| !self.k_shifts(motions, block)), own(b'L')];
+        if by_k.is_some() && by_l.is_some() {
+            return refuse(Code::PN004, "K and L are both numbers of repeats", "write one of the two");
+        }
+        let times = match by_k.or(by_l) {
             None => 1,
             Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
             Some(times) => {

@@ -272,6 +272,7 @@ fn words_that_no_code_reads_are_refused() {
         ("fanuc", "G10 L10 P1 R5. X7.", "PN005"),
         ("fanuc", "G91 G30 P7 Z0.", "PN018"),
         ("fanuc", "G4 P100 X1.", "PN004"),
+        ("fanuc", "G81 X1. Z-5. R2. F100. K2 L3", "PN004"),
         ("haas", "M30 P5", "PN005"),
         ("linuxcnc", "M3 $1 S500", "PN016"),
         ("fanuc-lathe", "G4 U1. W2.", "PN005"),

@@ -43,6 +43,11 @@ proof-cost:
     cargo build --profile dist --bin postform --example floor
     benches/proof.py target/dist/postform target/dist/examples/floor
 
+# two binaries of postform for the same work, in turn: ratios of their CPU times
+pairs old new runs="7":
+    cargo build --profile dist --example floor
+    benches/pairs.py {{old}} {{new}} {{runs}}
+
 # mutated jobs of all formats through their readers: a panic is printed with its seed
 readers count="1000000" seed="0":
     git rev-parse --short HEAD; date -u +%F

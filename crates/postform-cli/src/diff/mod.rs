@@ -79,11 +79,13 @@ fn difference(
     reporter: &Reporter,
 ) -> Result<Result<Difference, Ending>, String> {
     let mut options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance };
-    let reads_both = |settings: &RunSettings| {
+    let reads_both = |side: &Side| {
+        // how a control reads numbers without a point does not depend on the units, which are somewhere in the program
+        let settings = args.control.settings(side.control, Units::Mm);
         settings.unpointed == Unpointed::Whole
             || !settings.assumed && settings.control.traits().without_point == WithoutPoint::Units
     };
-    options.ignore.points |= settings(args, old, new).1.iter().all(reads_both);
+    options.ignore.points |= reads_both(old) && reads_both(new);
     if args.motion {
         return Ok(match motions(args, old, new, reporter)? {
             Outcome::Refused => {

@@ -23,7 +23,7 @@ pub enum Format {
 type Row = (Format, &'static str, &'static str, &'static [&'static str]);
 
 const ROWS: [Row; Format::ALL.len()] = [
-    (Format::Json, "json", "One JSON document", &["json"]),
+    (Format::Json, "json", "A JSON document", &["json"]),
     (Format::JsonLines, "jsonl", "JSON Lines", &["jsonl", "ndjson"]),
     (Format::Cl, "cl", "An APT CL file", &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
     (Format::Nc, "nc", "An NC program", &["nc", "ngc", "tap", "cnc", "eia", "min", "ssb", "mpf", "spf", "h", "i"]),
@@ -88,6 +88,9 @@ impl Format {
         if first == b"1050" {
             return Some(Format::Nci); // the first record of every NCI file
         }
+        if first.starts_with(b"%PDF-") || first.starts_with(b"%!PS") {
+            return None; // a document, which begins with `%` like a program
+        }
         // a block in the middle of other text, such as a manual, does not make the text a program
         let is_comment = |line: &[u8]| line.starts_with(b"(") || line.starts_with(b";");
         let mut begins = true;
@@ -144,7 +147,15 @@ mod tests {
         assert_eq!(of("%\n"), Some(Format::Nc));
         assert_eq!(of("PK\u{3}\u{4}.."), Some(Format::Freecad));
         assert_eq!(of("1050\r\n9 34 0 0 0 0 0 0 T\r\n"), Some(Format::Nci));
-        let texts = ["", "\n\n", "hello, world", "[1, 2]", "# A manual\n\nG54 is a work offset.\n%\n"];
-        assert_eq!(texts.map(of), [None; 5]);
+        let texts = [
+            "",
+            "\n\n",
+            "hello, world",
+            "[1, 2]",
+            "# A manual\n\nG54 is a work offset.\n%\n",
+            "%PDF-1.7\n%\n",
+            "%!PS-Adobe-3.0\n",
+        ];
+        assert_eq!(texts.map(of), [None; 7]);
     }
 }

@@ -32,6 +32,16 @@ impl Fault {
         Box::new(Fault { column: Some(column), ..*Fault::new(code, message, help) })
     }
 
+    /// The fault for text at a column that can't be read.
+    pub fn unreadable(line: &[u8], column: usize, text: &str) -> Box<Fault> {
+        let is_utf_16 = line.starts_with(b"\xff\xfe") || line.starts_with(b"\xfe\xff");
+        let (message, help) = match is_utf_16 {
+            true => ("the program is UTF-16".to_owned(), "save it as plain text (ASCII or UTF-8)"),
+            false => (format!("`{text}` can't be read"), "remove it, or put it into a comment"),
+        };
+        Fault::at(Code::PN001, column, message, help)
+    }
+
     /// Converts the fault to a finding about this line of the program.
     pub fn diag(self, line: u64, text: &[u8]) -> Diag {
         let block = text_of(text);

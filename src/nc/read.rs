@@ -433,6 +433,5 @@ fn after_end<T>(line: &[u8], start: usize, end: usize, control: &'static Control
 
 #[cold]
 fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
-    let text = quoted(line, start, end);
-    Err(Fault::at(Code::PN001, start, format!("`{text}` can't be read"), "remove it, or put it into a comment"))
+    Err(Fault::unreadable(line, start, &quoted(line, start, end)))
 }

@@ -19,6 +19,7 @@ mod examples;
 mod fanuc_language;
 mod file_names;
 mod fmt;
+mod foreign_files;
 mod former_users;
 mod freecad;
 mod golden;

@@ -1,7 +1,7 @@
 //! Input files.
 
 use std::fs::{self, File};
-use std::io::{self, BufRead, Read, Seek};
+use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -15,6 +15,7 @@ use postform::{Format, Job};
 use super::args::ReadArgs;
 pub use super::destination::folder;
 use super::inputs;
+use super::job_format::{foreign, job_format, shown, start};
 use super::packed::{unpacked, unpacked_name};
 use super::spool::Spool;
 
@@ -66,7 +67,14 @@ pub fn open_program(path: &Path) -> Result<File, String> {
             "error: {name} is a job, not an NC program\n  help: `postform render {name} --form FORM` prints the program of a job"
         ));
     }
-    Ok(file)
+    match foreign(&head) {
+        Some(what) if Format::of_content(&head).is_none() => Err(format!(
+            "error: {} is not an NC program: it begins with `{}` and seems to be {what}\n  help: give an NC program",
+            name(path),
+            shown(&head)
+        )),
+        _ => Ok(file),
+    }
 }
 
 /// The bytes of a regular file. A pipe or a device, which may never end, is refused.
@@ -238,28 +246,6 @@ pub fn control(path: &Path) -> Result<&'static Control, String> {
     Control::own(&name(path), &text).map_err(|wrong| format!("error: {}", escaped_lines(&wrong.to_string())))
 }
 
-/// The format of a job, given by the option, else by the file extension, else by the first bytes of the file.
-fn job_format(
-    path: &Path,
-    args: &ReadArgs,
-    first: impl FnOnce() -> Result<Option<Format>, String>,
-) -> Result<Format, String> {
-    if args.from.is_none() && is_form(path) {
-        let name = name(path);
-        return Err(format!(
-            "error: {name} is a form, not a job\n  help: `postform lint {name}` checks a form; in `postform render \
-             JOB --form FORM` the job comes first"
-        ));
-    }
-    if path.is_dir() {
-        let name = name(path);
-        return Err(format!(
-            "error: can't read {name}: it is a folder\n  help: `postform render {name} --form FORM --out-dir OUT` prints each job in it"
-        ));
-    }
-    format_of(path, args.from, first)
-}
-
 /// Options that apply only to some formats.
 struct Only {
     is_given: bool,
@@ -318,55 +304,9 @@ fn only(args: &ReadArgs) -> [Only; 6] {
     ]
 }
 
-/// The format by the extension of a file, without the `.gz` of a compressed file.
-pub fn format_of_name(path: &Path) -> Option<Format> {
-    Format::of_name(&unpacked_name(path).as_deref().unwrap_or(path).to_string_lossy())
-}
-
-fn format_of(
-    path: &Path,
-    from: Option<Format>,
-    first: impl FnOnce() -> Result<Option<Format>, String>,
-) -> Result<Format, String> {
-    match from.or_else(|| format_of_name(path)) {
-        Some(format) => Ok(format),
-        None => first()?.ok_or_else(|| {
-            let name = name(path);
-            let known = Format::ALL.map(Format::name).join(", ");
-            format!("error: the format of {name} is unknown: give it with --from, one of {known}")
-        }),
-    }
-}
-
-/// The format by the first bytes of a file or of standard input. An empty standard input is an empty JSON job. Other
-/// inputs that are not seekable are not examined.
-fn by_content(path: &Path) -> Result<Option<Format>, String> {
-    let fail = |error: io::Error| io_message("read", path, &error);
-    if path == Path::new("-") {
-        // the bytes stay in the buffer of standard input
-        let mut input = io::stdin().lock();
-        let start = input.fill_buf().map_err(fail)?;
-        return Ok(Format::of_content(start).or(start.trim_ascii().is_empty().then_some(Format::Json)));
-    }
-    if !std::fs::metadata(path).map_err(fail)?.is_file() {
-        return Ok(None);
-    }
-    Ok(Format::of_content(&beginning(path).map_err(fail)?))
-}
-
-/// The first bytes of a file, decompressed if its name ends with `.gz`.
-pub fn beginning(path: &Path) -> io::Result<Vec<u8>> {
-    let (file, mut start, most) = (File::open(path)?, Vec::new(), Format::LOOKED_AT as u64);
-    match unpacked_name(path) {
-        Some(_) => unpacked(io::BufReader::new(file)).take(most).read_to_end(&mut start)?,
-        None => file.take(most).read_to_end(&mut start)?,
-    };
-    Ok(start)
-}
-
 /// Checks that the format of a job is known and that the options apply to it.
 pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
-    let format = job_format(path, args, || by_content(path))?;
+    let format = job_format(path, args, || start(path))?;
     let other = only(args).into_iter().find(|only| only.is_given && !only.applies_to.contains(&format));
     other.map_or(Ok(()), |only| Err(only.wrong(path)))
 }
@@ -377,15 +317,14 @@ pub fn check_formats(paths: &[PathBuf], args: &ReadArgs) -> Result<(), String> {
     let given: Vec<Only> = only(args).into_iter().filter(|only| only.is_given).collect();
     let Some(first) = paths.first().filter(|_| !given.is_empty()) else { return Ok(()) };
     // a job whose format is unknown fails when it is read
-    let formats: Vec<Format> =
-        paths.iter().filter_map(|path| job_format(path, args, || by_content(path)).ok()).collect();
+    let formats: Vec<Format> = paths.iter().filter_map(|path| job_format(path, args, || start(path)).ok()).collect();
     let unused = |only: &&Only| !formats.is_empty() && !formats.iter().any(|format| only.applies_to.contains(format));
     given.iter().find(unused).map_or(Ok(()), |only| Err(only.wrong(first)))
 }
 
 /// Opens a job. `again`: the job is read more than once, so an input that is not seekable is copied into a file.
 pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, String> {
-    let format = job_format(path, args, || by_content(path))?;
+    let format = job_format(path, args, || start(path))?;
     // an NC program is run twice, and an archive is read from its end
     let twice = again || matches!(format, Format::Nc | Format::Freecad);
     let is_file = path != Path::new("-") && fs::metadata(path).is_ok_and(|meta| meta.is_file());
@@ -402,8 +341,7 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
 /// # Errors
 /// A message: the format is unknown.
 pub fn job_in_memory(path: &Path, bytes: &Arc<[u8]>, args: &ReadArgs) -> Result<Job<'static>, String> {
-    let first = || Ok(Format::of_content(bytes));
-    let format = job_format(path, args, first)?;
+    let format = job_format(path, args, || Ok(bytes[..bytes.len().min(Format::LOOKED_AT)].to_vec()))?;
     let mut job = Job::file(format, io::Cursor::new(Arc::clone(bytes)));
     settle(&mut job, format, path, args);
     Ok(job)

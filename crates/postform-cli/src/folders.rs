@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use postform::Format;
 
-use super::files::{beginning, format_of_name, io_message};
+use super::files::io_message;
+use super::job_format::{beginning, format_of_name};
 use super::packed::unpacked_name;
 
 /// Maximum depth of subfolders. Deeper subfolders are skipped.

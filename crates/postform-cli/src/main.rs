@@ -19,6 +19,7 @@ mod folders;
 mod forms;
 mod identity;
 mod inputs;
+mod job_format;
 mod lint;
 mod lsp;
 mod machine;

@@ -16,6 +16,7 @@ use super::Ending;
 use super::args::{ControlArgs, PlotArgs};
 use super::config::Config;
 use super::files::{self, io_message};
+use super::job_format::format_of_name;
 use super::output::{self, Target};
 use super::prepare::prepare;
 use super::rendered::rendered;
@@ -73,7 +74,7 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File)>, String> {
     let config = Config::near(&args.file)?;
     let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from == Format::Nc) && {
-        args.read.from.is_some() || files::format_of_name(&args.file) == Some(Format::Nc)
+        args.read.from.is_some() || format_of_name(&args.file) == Some(Format::Nc)
     };
     if is_program {
         let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };

@@ -186,9 +186,11 @@ impl<'a> Cursor<'a> {
     pub fn unreadable(&self) -> Box<Fault> {
         let rest = String::from_utf8_lossy(self.rest());
         let word: String = rest.trim_end().chars().take_while(|c| !c.is_whitespace()).take(40).collect();
-        let message =
-            if word.is_empty() { "the block ends too early".to_owned() } else { format!("`{word}` can't be read") };
-        Fault::at(Code::PN001, self.at, message, "remove it, or put it into a comment")
+        if word.is_empty() {
+            let help = "remove it, or put it into a comment";
+            return Fault::at(Code::PN001, self.at, "the block ends too early", help);
+        }
+        Fault::unreadable(self.text, self.at, &word)
     }
 }
 

@@ -153,34 +153,62 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
             })
             .collect();
         if known.is_empty() && !was {
-            wrong = Some((Code::PV012, leg.frame, None));
+            let tools = s
+                .job
+                .legs()
+                .map(|(own, _)| own.frame)
+                .filter(|own| tools && own.work == leg.frame.work && own.tool != leg.frame.tool);
+            wrong = Some((leg.frame, tools.last().map_or(Astray::Frame, |own| Astray::Tool(own.tool))));
             break;
         }
         let allowed = |length: &Option<f64>| {
             (was && *length == before.1) || known.iter().any(|known| known.is_none() || is_length(*known, *length))
         };
         if let Some(length) = leg.lengths.iter().find(|length| !allowed(length)).filter(|_| tools) {
-            wrong = Some((Code::PV014, leg.frame, Some(*length)));
+            wrong = Some((leg.frame, Astray::Length { is: *length, wanted: known.first().copied().flatten() }));
             break;
         }
     }
-    let Some((code, frame, length)) = wrong else { return };
-    let text = |name: &str, value: Option<f64>| value.map_or(format!("no {name}"), |v| format!("{name}{}", number(v)));
+    if let Some((frame, astray)) = wrong {
+        moves_astray(s, frame, astray, line);
+    }
+}
+
+/// How the frame of a path differs from the job's frames.
+enum Astray {
+    /// The job moves in this work offset with this tool.
+    Tool(Option<f64>),
+    /// The job does not move in this work offset.
+    Frame,
+    /// The length register differs. `wanted`: the register of the job in this frame, if the job moves in this frame.
+    Length { is: Option<f64>, wanted: Option<f64> },
+}
+
+/// Reports a path in a frame in which the job does not move.
+fn moves_astray(s: &mut Sides<'_>, frame: Frame, astray: Astray, line: u64) {
     let way = if line == 0 { "after the last cut" } else { "before this cut" };
-    let tool = match frame.tool {
-        Some(tool) if tools => format!("tool {}", s.program.tool_text(tool)),
-        _ => "the tool".to_owned(),
+    let work = frame.work.map_or("no work offset".to_owned(), |work| format!("work offset {}", number(work)));
+    let tool = frame.tool.filter(|_| s.tools).map(|tool| format!("tool {}", s.program.tool_text(tool)));
+    let moving = tool.as_deref().unwrap_or("the tool");
+    let (code, help, message) = match astray {
+        Astray::Tool(Some(wanted)) => {
+            let tool = tool.as_deref().unwrap_or("no tool");
+            let message =
+                format!("{way} {tool} is loaded for moves in {work}, but the job has tool {} there", number(wanted));
+            (Code::PV012, "print T[tool] M6 in the tool change", message)
+        }
+        Astray::Tool(None) | Astray::Frame => {
+            let help = "print the offsets before the first move to a height";
+            (Code::PV012, help, format!("{way} {moving} moves in {work}, but the job has no move there"))
+        }
+        Astray::Length { is, wanted } => {
+            let is = is.map_or("no length register".to_owned(), |h| format!("H{}", number(h)));
+            let job = wanted.map_or("not in the job".to_owned(), |h| format!("the job has H{} there", number(h)));
+            let message = format!("{way} the tool moves in {work} with {is}, but {job}");
+            (Code::PV014, "print G43 H[lcomp] in the tool change", message)
+        }
     };
-    s.found(code, line, "print the offsets before the first move to a height", || match length {
-        Some(length) => {
-            let length =
-                length.map_or("no tool length offset".to_owned(), |h| format!("tool length offset H{}", number(h)));
-            format!("{way} the tool moves with {length} in {}, but not in the job", text("work offset ", frame.work))
-        }
-        None => {
-            format!("{way} {tool} moves in {}, but the job has no move there", text("work offset ", frame.work))
-        }
-    });
+    s.found(code, line, help, || message.clone());
 }
 
 /// The axes to check for a move home, as bits. At least one of these axes must go home.

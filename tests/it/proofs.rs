@@ -885,6 +885,33 @@ fn up_without_the_length_is_explained() {
     assert!(format!("{found:?}").contains("`G91 G28 Z0`"), "{found:#?}\n{manual}");
 }
 
+/// A tool change that loads another tool, no tool or another length register is one finding: the finding about the moves
+/// before the cuts and the finding about the cuts have the same help.
+#[test]
+fn a_wrong_tool_change_is_one_finding() {
+    let form = check(&post("fanuc.pf"));
+    let path = r#""work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[{"rapid":[0,0,5]},{"line":[0,0,-1]},{"rapid":[0,0,5]}]"#;
+    let text = mm(&format!(r#"{{"tool":1,{path}}},{{"tool":2,{path}}}"#));
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    for (from, to, message) in [
+        (
+            "T2 M6",
+            "T5 M6",
+            "before this cut tool 5 is loaded for moves in work offset 54, but the job has tool 2 there",
+        ),
+        ("G43 H2", "G43 H7", "before this cut the tool moves in work offset 54 with H7, but the job has H2 there"),
+    ] {
+        assert!(program.contains(from), "{program}");
+        let Verdict::Different(found) = verified(&form, &program.replace(from, to), &job) else { panic!("{to}") };
+        let messages: Vec<&str> = found.iter().map(|finding| finding.message.as_str()).collect();
+        assert_eq!(messages, [message], "{to}");
+    }
+    let Verdict::Different(found) = verified(&form, &program.replace(" M6", ""), &job) else { panic!("no M6") };
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert_eq!(found[0].message, "no tool is loaded, but the job has tool 1 here");
+}
+
 /// A form may drill a hole in pecks, and dwell at each peck.
 #[test]
 fn drilled_holes_may_be_pecked() {

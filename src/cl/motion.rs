@@ -242,20 +242,23 @@ fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
 /// setup, or skipped.
 fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
     job.close_holes()?;
-    if !setups.turn(motion.axis.0) {
-        return Ok(());
+    let begins = setups.turn(motion.axis.0);
+    enter_setup(begins, setups, motion, job)?;
+    if begins && setups.is_chosen() {
+        job.begin_setup();
     }
-    if motion.cutcom.is_in_use() {
+    Ok(())
+}
+
+/// Handles the beginning of a setup, and the return to a setup because the setup after it has no motion.
+fn enter_setup(begins: bool, setups: &Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
+    if begins && motion.cutcom.is_in_use() {
         let help = "end compensation before the axis turns";
         return fault(Code::PL004, "the tool axis turns under cutter compensation", help);
     }
     (motion.position, motion.point, motion.jump) = (None, None, None);
     motion.shift.frame = setups.frame().filter(|_| setups.is_chosen());
-    if setups.is_chosen() {
-        job.begin_setup();
-    } else {
-        job.aside = true;
-    }
+    job.aside = !setups.is_chosen();
     Ok(())
 }
 

@@ -721,6 +721,14 @@ fn a_setup_lies_as_its_csys_does() {
     assert!(front.contains(&"G99 G81 X-5. Y30. Z-5. R2. F100.".to_owned()), "{front:?}");
 }
 
+/// A tool axis without motions is no setup: the motions after it belong to the setup before it.
+#[test]
+fn a_setup_goes_on_after_a_tool_axis_without_motions() {
+    let text = TWO_SIDES.replace("STOP\n", "TLAXIS/1,0,0\nTLAXIS/0,0,1\nGOTO/6,0,-1\n");
+    assert_eq!(front_of(&text, 1), ["G0 X0 Y0 Z10.", "G1 X5. Z-1. F100.", "X6.", "G0 X5. Z50."]);
+    assert_eq!(front_of(&text, 2), front_of(TWO_SIDES, 2));
+}
+
 #[test]
 fn a_setup_does_not_begin_inside_a_cut() {
     let text = TWO_SIDES.replace("RAPID\nGOTO/10,-30,5,0,-1,0", "GOTO/10,-30,5,0,-1,0");

@@ -36,6 +36,11 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
         [x, y, z, i, j, k, rest @ ..] => ([*x, *y, *z], [*i, *j, *k], rest.first().copied()),
         _ => return fault(Code::PL001, "a CIRCLE that can't be read", "write CIRCLE/x,y,z,i,j,k,r"),
     };
+    // the post for CAMplete writes the angle after the radius; the angle shows whether the direction is right
+    let (sense, angle) = match (job.notes.dialect(), values.as_slice()) {
+        (dialect @ Dialect::Camplete, [_, _, _, _, _, _, _, angle, ..]) => (dialect.sense(), Some(*angle)),
+        _ => (sense, angle),
+    };
     let axis = motion.shift.turned(axis);
     let length = axis.iter().map(|part| part * part).sum::<f64>().sqrt();
     if length == 0.0 {

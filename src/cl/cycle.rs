@@ -1,6 +1,7 @@
 //! CYCLE statements, which select the cycle for the following points.
 
 use super::coded::{Coded, cycle_type, over, read_options};
+use super::cycle_camplete::{Converted, camplete};
 use super::cycle_dialects::{Heights, autodesk, in_gener_words, returns_to_start};
 use super::cycle_words::Opt;
 use super::dialect::Dialect;
@@ -45,8 +46,16 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
             let shifted = |height| state.motion.shift.of([0.0, 0.0, height])[2];
             let heights =
                 Heights { clearance: shifted(heights.clearance), retract: shifted(heights.retract), ..heights };
-            state.cycle.returns = state.cycle.return_mode.over(Some(CodedReturn::Height(heights.clearance)));
+            let returns = CodedReturn::Height { height: heights.clearance, above: None };
+            state.cycle.returns = state.cycle.return_mode.over(Some(returns));
             state.cycle.heights = Some(heights);
+            Ok(())
+        }
+        _ if dialect == Dialect::Camplete => {
+            let Converted { words, returns } = of_camplete(words, state)?;
+            let (coded, rest) = cycle_type(&words)?;
+            begin(coded, rest, true, state)?;
+            state.cycle.returns = state.cycle.return_mode.over(Some(returns));
             Ok(())
         }
         _ => {
@@ -59,6 +68,20 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
             Ok(())
         }
     }
+}
+
+/// Converts a cycle of Autodesk's post for CAMplete. The points of a cycle have no tool axis.
+fn of_camplete(words: &[Word], state: &mut State<'_>) -> Done<Converted> {
+    if state.motion.many_axes {
+        let help = "in the CAM system, make the holes in an operation with a fixed tool axis";
+        return fault(Code::PL004, "a cycle after MULTAX/ON: the tool axis at its points is unknown", help);
+    }
+    let State { job, motion, .. } = state;
+    let mut made = camplete(words, job.spindle.now.turn, &mut job.notes)?;
+    if let CodedReturn::Height { height, .. } = &mut made.returns {
+        *height = motion.shift.of([0.0, 0.0, *height])[2];
+    }
+    Ok(made)
 }
 
 fn auto(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Done {

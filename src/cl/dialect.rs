@@ -15,6 +15,7 @@ pub enum Dialect {
     Makino,
     Ncl,
     Autodesk,
+    Camplete,
 }
 
 /// Direction of a CIRCLE whose axis is positive.
@@ -36,6 +37,8 @@ struct Row {
     sense: Option<Sense>,
     /// The last statement of the system's files.
     last: Option<&'static str>,
+    /// Major words that only this system writes, and that have no effect on the program.
+    without_effect: &'static [&'static str],
 }
 
 /// How the statement with the program's name begins in files of Autodesk.
@@ -43,15 +46,17 @@ const QUOTED_NAME: &str = "PARTNO/'";
 
 /// The systems, with marks and directions taken from real files (docs/cl.md).
 #[rustfmt::skip]
-const ROWS: [Row; 8] = [
-    Row { dialect: Dialect::Gener, name: "gener", title: "ICAM GENER", marks: &[], sense: None, last: Some("FINI") },
-    Row { dialect: Dialect::Catia, name: "catia", title: "CATIA", marks: &["$$*CATIA", "CATIAAPTVERSION"], sense: None, last: Some("FINI") },
-    Row { dialect: Dialect::Creo, name: "creo", title: "Creo", marks: &["PRO/CLFILE"], sense: None, last: Some("FINI") },
-    Row { dialect: Dialect::Nx, name: "nx", title: "Siemens NX", marks: &["TOOLPATH/"], sense: Some(Sense::LeftHand), last: Some("END-OF-PATH") },
-    Row { dialect: Dialect::SolidWorksCam, name: "solidworks", title: "SolidWorks CAM", marks: &["CSI_", "TRNTYP"], sense: Some(Sense::RightHand), last: Some("FINI") },
-    Row { dialect: Dialect::Makino, name: "makino", title: "Makino APTCL", marks: &["APTCL-SPEC"], sense: Some(Sense::LeftHand), last: None },
-    Row { dialect: Dialect::Ncl, name: "ncl", title: "NCL", marks: &["NCLCAM"], sense: None, last: Some("FINI") },
-    Row { dialect: Dialect::Autodesk, name: "autodesk", title: "Autodesk HSM", marks: &[], sense: None, last: Some("FINI") },
+const ROWS: [Row; 9] = [
+    Row { dialect: Dialect::Gener, name: "gener", title: "ICAM GENER", marks: &[], sense: None, last: Some("FINI"), without_effect: &[] },
+    Row { dialect: Dialect::Catia, name: "catia", title: "CATIA", marks: &["$$*CATIA", "CATIAAPTVERSION"], sense: None, last: Some("FINI"), without_effect: &[] },
+    Row { dialect: Dialect::Creo, name: "creo", title: "Creo", marks: &["PRO/CLFILE"], sense: None, last: Some("FINI"), without_effect: &[] },
+    Row { dialect: Dialect::Nx, name: "nx", title: "Siemens NX", marks: &["TOOLPATH/"], sense: Some(Sense::LeftHand), last: Some("END-OF-PATH"), without_effect: &[] },
+    Row { dialect: Dialect::SolidWorksCam, name: "solidworks", title: "SolidWorks CAM", marks: &["CSI_", "TRNTYP"], sense: Some(Sense::RightHand), last: Some("FINI"), without_effect: &[] },
+    Row { dialect: Dialect::Makino, name: "makino", title: "Makino APTCL", marks: &["APTCL-SPEC"], sense: Some(Sense::LeftHand), last: None, without_effect: &[] },
+    Row { dialect: Dialect::Ncl, name: "ncl", title: "NCL", marks: &["NCLCAM"], sense: None, last: Some("FINI"), without_effect: &[] },
+    Row { dialect: Dialect::Autodesk, name: "autodesk", title: "Autodesk HSM", marks: &[], sense: None, last: Some("FINI"), without_effect: &[] },
+    // UNDEFINED comes before expanded cycles; the post for MANUSnc writes the other words
+    Row { dialect: Dialect::Camplete, name: "camplete", title: "Autodesk for CAMplete", marks: &["PPRINT/'MATRIXDEFINITION'"], sense: Some(Sense::LeftHand), last: Some("FINI"), without_effect: &["UNDEFINED", "START", "OPERATION", "MCS2"] },
 ];
 
 impl Dialect {
@@ -86,6 +91,16 @@ impl Dialect {
         }
     }
 
+    /// Whether a post of Autodesk wrote the file. The posts have the same tool changes, spindle words and turning files.
+    pub(super) fn is_of_autodesk(self) -> bool {
+        matches!(self, Dialect::Autodesk | Dialect::Camplete)
+    }
+
+    /// Whether the system writes this major word, but the word has no effect on the program.
+    pub(super) fn has_no_effect(self, major: &str) -> bool {
+        self.row().without_effect.contains(&major)
+    }
+
     pub(super) fn sense(self) -> Option<Sense> {
         self.row().sense
     }
@@ -96,24 +111,26 @@ impl Dialect {
 
     /// Recognises the system from the first lines of a file. Returns the system with the line number and the mark by
     /// which it was recognised. Text statements after the first motion are ignored, because their text comes from the
-    /// programmer.
+    /// programmer. The first mark decides, except that a mark of CAMplete comes after marks of other systems.
     pub(super) fn of_head<'l>(lines: impl Iterator<Item = &'l [u8]>) -> Option<(Dialect, usize, &'static str)> {
-        let (mut moves, mut has_mode) = (false, false);
+        let (mut moves, mut has_mode, mut first) = (false, false, None);
         for (line, number) in lines.zip(1..) {
-            // only Autodesk's post begins with MODE and puts the program's name in quotes
+            // only Autodesk's posts begin with MODE and put the program's name in quotes
             if has_mode && line.starts_with(QUOTED_NAME.as_bytes()) {
-                return Some((Dialect::Autodesk, number, QUOTED_NAME));
+                first = first.or(Some((Dialect::Autodesk, number, QUOTED_NAME)));
             }
             has_mode |= line.starts_with(b"MODE/MILL") || line.starts_with(b"MODE/TURN");
             moves |= line.trim_ascii_start().get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"GOTO"));
             if moves && text_statement(line.trim_ascii()).is_some() {
                 continue;
             }
-            if let Some((dialect, mark)) = Self::of_line(line) {
-                return Some((dialect, number, mark));
+            match Self::of_line(line) {
+                Some((Dialect::Camplete, mark)) => return Some((Dialect::Camplete, number, mark)),
+                Some((dialect, mark)) => first = first.or(Some((dialect, number, mark))),
+                None => {}
             }
         }
-        None
+        first
     }
 
     /// Recognises the system from one line. Returns the system with the mark by which it was recognised.
@@ -150,6 +167,9 @@ mod tests {
         };
         assert_eq!(head("MODE/MILL\nPARTNO/'1'\nTOOL PATH/"), Some((Dialect::Autodesk, 2)));
         assert_eq!(head("PARTNO/'1'\nMODE/MILL"), None);
+        let camplete = "CSI_TOOL_PATH/Face\nPPRINT/'MATRIX DEFINITION'";
+        assert_eq!(head(camplete), Some((Dialect::Camplete, 2)));
+        assert_eq!(head("MODE/MILL\nPARTNO/'1'\nUNITS/MM\nPPRINT/'MATRIX DEFINITION'"), Some((Dialect::Camplete, 4)));
         assert_eq!(head("GOTO/1,2,3\nPPRINT/APTCL-SPEC\nCSI_SET/1"), Some((Dialect::SolidWorksCam, 3)));
     }
 }

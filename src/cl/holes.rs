@@ -10,6 +10,9 @@ use crate::toolpath::{CycleSpec, Event, Hole};
 /// Tolerance for rounded heights, in the file's units.
 const BELOW_TOP: f64 = 1e-4;
 
+/// Tolerance between a height and the same height above a point, both rounded, in the file's units.
+const ROUNDED: f64 = 5e-4;
+
 /// Handles a point while a cycle is active.
 pub(super) fn point(at: [f64; 3], state: &mut State<'_>) -> Done {
     let Some(mut spec) = state.cycle.active.take() else { return Ok(()) };
@@ -72,7 +75,16 @@ fn return_plane(at: [f64; 3], spec: &CycleSpec, motion: &Motion, cycle: &mut Cyc
     let plane = match cycle.returns {
         None => None,
         Some(CodedReturn::Above(above)) => Some(at[2] + above),
-        Some(CodedReturn::Height(height)) => Some(height),
+        Some(CodedReturn::Height { height, above }) => {
+            if let Some(above) = above.filter(|above| (at[2] + above - height).abs() > ROUNDED) {
+                let message = format!(
+                    "the return plane is at {height}, and also {above} above the first point, which is at {}",
+                    at[2]
+                );
+                return fault(Code::PC040, message, "let the CAM system write the file again");
+            }
+            Some(height)
+        }
         Some(CodedReturn::Clearance) => match spec.clear {
             Some(clear) => Some(at[2] + clear),
             None => {

@@ -38,6 +38,7 @@ const IGNORED: &[Ignored] = &[
     without_effect("LOADTL", "MILL"), without_effect("LOADTL", "DRILL"), without_effect("LOADTL", "TURN"),
     without_effect("LOADTL", "AUTO"),
     lost("LOADTL", "MANUAL", "the program does not stop for a tool change by hand"),
+    lost("CSI_SET_PATH_PARAM", "TOOL_BREAK=ON", "the program does not check the tool for breakage"),
     without_effect("CUTCOM", "XYPLAN"), without_effect("CUTCOM", "OSETNO"), without_effect("CUTCOM", "OFSETNO"),
     without_effect("CUTCOM", "NORMDS"),
     without_effect("SET", "MODE"), without_effect("SET", "ABSOL"), without_effect("SET", "MILL"),

@@ -54,6 +54,10 @@ pub(super) struct Job<'s> {
     pub aside: bool,
     /// The tool that was loaded last.
     in_use: Option<Tool>,
+    /// Whether the last operation has a work offset.
+    has_work: bool,
+    /// The texts between the beginning of a tool path and its MCS, which gives the setup of the tool path.
+    heading: Option<Vec<(Waiting, Place)>>,
 }
 
 impl<'s> Job<'s> {
@@ -77,6 +81,8 @@ impl<'s> Job<'s> {
             in_cycle: false,
             aside: false,
             in_use: None,
+            has_work: false,
+            heading: None,
         }
     }
 
@@ -151,17 +157,37 @@ impl<'s> Job<'s> {
 
     /// Keeps an item until the tool change before it is complete. If no tool change waits, pushes the item.
     pub fn wait(&mut self, waiting: Waiting) -> Done {
+        match &mut self.heading {
+            Some(heading) => {
+                heading.push((waiting, self.notes.place));
+                Ok(())
+            }
+            None => self.wait_at(waiting, self.notes.place),
+        }
+    }
+
+    /// Keeps the texts after this point until [`Job::end_heading`].
+    pub fn begin_heading(&mut self) {
+        self.heading.get_or_insert_default();
+    }
+
+    /// Pushes the texts since the beginning of a tool path. The setup of the tool path is known by now.
+    pub fn end_heading(&mut self) -> Done {
+        self.heading.take().into_iter().flatten().try_for_each(|(text, place)| self.wait_at(text, place))
+    }
+
+    fn wait_at(&mut self, waiting: Waiting, place: Place) -> Done {
         if self.aside {
             return Ok(());
         }
         if self.started && self.change.is_none() {
-            return self.push_waiting(&waiting, self.notes.place);
+            return self.push_waiting(&waiting, place);
         }
         if self.waiting.len() == MOST_WAITING {
             let help = "put SPINDL before them, or check that this is a CL file";
             return fault(Code::PL004, format!("more than {MOST_WAITING} items before SPINDL of a tool"), help);
         }
-        self.waiting.push((waiting, self.notes.place));
+        self.waiting.push((waiting, place));
         Ok(())
     }
 
@@ -256,6 +282,13 @@ impl<'s> Job<'s> {
                     tool.name.clone_from(&tool.comment);
                 }
             }
+            let has_work = change.work.is_some();
+            if self.operations > 0 && has_work != self.has_work {
+                let help = "in the CAM system, give each setup the number of its work offset";
+                let message = "some tool paths of the file have a work offset (ZERO), and others have none";
+                return fault(Code::PL004, message, help);
+            }
+            self.has_work = has_work;
             self.operations += 1;
             self.feed = None;
             self.hold.tool_change(change, place)?;
@@ -314,6 +347,11 @@ impl<'s> Job<'s> {
         }
     }
 
+    /// Removes a tool change that has no motion, because the setup after it loads its own tool.
+    pub fn drop_change(&mut self) {
+        self.change = None;
+    }
+
     /// Removes rapids before the first tool. These rapids lead to the tool change position, which only the machine
     /// defines.
     fn leave_out_rapids(&mut self) {
@@ -366,6 +404,29 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
+    /// Handles the work offset of the tool change that is waiting.
+    pub fn work_offset(&mut self, number: f64) -> Done {
+        match &mut self.change {
+            Some((change, _)) => change.work = Some(number),
+            None => {
+                let help = "put it after the LOADTL of its tool path";
+                return fault(Code::PL004, "a work offset inside a tool path", help);
+            }
+        }
+        Ok(())
+    }
+
+    /// Handles the beginning of a tool path in a file in which each tool path gives its coolant, except for no coolant.
+    pub fn begin_section(&mut self) -> Done {
+        self.tools.coolant = self.tools.coolant.map(|_| Coolant::OFF);
+        self.end_heading()
+    }
+
+    /// The register of the current tool's diameter, if the file gives it with the tool.
+    pub fn diameter_register(&self) -> Option<f64> {
+        self.in_use.as_ref().and_then(|tool| tool.diameter_offset)
+    }
+
     /// The feed for the next motion. `None`: the sink already has this feed.
     #[inline]
     pub fn feed_to_say(&mut self, feed: f64) -> Option<f64> {
@@ -387,6 +448,7 @@ impl<'s> Job<'s> {
 
     /// Handles the end of the file.
     pub fn finish(&mut self) -> Done {
+        self.end_heading()?;
         if !self.has_operation() && self.is_unmoved() {
             return fault(Code::PJ009, "the file has no motion", "check that this is a CL file");
         }

@@ -65,7 +65,18 @@ impl<R: Read> Lines<R> {
 }
 
 /// Words that begin a text statement, with or without a slash. The text of these words extends to the end of the line.
-const TEXT: [&str; 7] = ["PARTNO", "PPRINT", "TPRINT", "DISPLY", "INSERT", "REMARK", "LETTER"];
+const TEXT: [&str; 10] = [
+    "PARTNO",
+    "PPRINT",
+    "TPRINT",
+    "DISPLY",
+    "INSERT",
+    "REMARK",
+    "LETTER",
+    "CSI_INSERT_CUSTOM_GCODE",
+    "CSI_PROGRAM_COMMENT",
+    "CSI_TOOL_PATH",
+];
 
 /// The text word at the beginning of a line, and the text after it.
 pub(super) fn text_statement(line: &[u8]) -> Option<(&'static str, &[u8])> {

@@ -7,7 +7,7 @@ use super::ignored::ignore_with_number;
 use super::machine::no_cutcom_waits;
 use super::report::Notes;
 use super::state::State;
-use super::words::Word;
+use super::words::{Word, numbers};
 use crate::diag::Code;
 use crate::toolpath::{Spindle, Tool};
 
@@ -34,13 +34,16 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     };
     let tools = &mut state.job.tools;
     tools.greatest = tools.greatest.max(number);
-    let register = match (dialect, &words[1..]) {
-        (Dialect::Autodesk, words) => autodesk_register(words)?,
+    let (length_offset, diameter_offset) = match (dialect, &words[1..]) {
+        (Dialect::Autodesk | Dialect::Camplete, words) => autodesk_registers(words, dialect)?,
         // the other words only describe the tool
-        (Dialect::Catia, _) if name == "TOOLNO" => None,
-        (_, words) => length_register(name, number, words, &mut state.job.notes)?,
+        (Dialect::Catia, _) if name == "TOOLNO" => (None, None),
+        (_, words) => (length_register(name, number, words, &mut state.job.notes)?, None),
     };
-    another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)
+    if dialect == Dialect::Camplete {
+        state.job.begin_section()?;
+    }
+    another_tool(Some(Tool { number, length_offset, diameter_offset, ..Tool::default() }), state)
 }
 
 /// Handles TOOL PATH/name,TOOL,tool. If the statement names another tool than the current one, the other tool must be
@@ -73,6 +76,10 @@ fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     motion.rapid_after_cycle = false; // the rapid would have belonged to the previous tool
     (motion.has_moved, motion.jump) = (false, None);
     let is_in = number.is_some() && std::mem::replace(&mut job.tools.loaded, number) == number;
+    if std::mem::take(&mut job.tools.is_forced) && is_in {
+        let message = "CSI_FORCE_TOOL_CHANGE is ignored: the tool is in the spindle, and is not changed again";
+        job.notes.warn(Code::PL008, message, "if the machine must change it, write AUXFUN/6 after LOADTL");
+    }
     if !is_in {
         job.tools.begin_tool();
         if !job.spindle.is_new {
@@ -83,11 +90,15 @@ fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     Ok(())
 }
 
-/// Reads the numbers that Autodesk writes after a tool's number: pocket, length and length register.
-fn autodesk_register(words: &[Word]) -> Done<Option<f64>> {
-    match words {
-        [] => Ok(None),
-        [Word::Number(_), Word::Number(_), Word::Number(register)] => Ok(Some(*register)),
+/// Reads the numbers that Autodesk writes after a tool's number: pocket, length, and the registers of the length and the
+/// diameter. Only the post for MANUSnc writes the register of the diameter.
+fn autodesk_registers(words: &[Word], dialect: Dialect) -> Done<(Option<f64>, Option<f64>)> {
+    match numbers(words).as_deref() {
+        Some([]) => Ok((None, None)),
+        Some([_, _, length]) => Ok((Some(*length), None)),
+        Some([_, _, length, diameter]) if dialect == Dialect::Camplete => {
+            Ok((Some(*length), Some(*diameter).filter(|diameter| *diameter > 0.0)))
+        }
         _ => {
             let help = "Autodesk writes LOADTL/tool, pocket, length, register";
             fault(Code::PL001, "a LOADTL of Autodesk that can't be read", help)

@@ -24,7 +24,7 @@ pub(super) fn units(words: &[Word], job: &mut Job<'_>) -> Done {
 
 /// Handles SPINDL. After a change of the speed, feeds per revolution are converted again.
 pub(super) fn spindl(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
-    if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
+    if let (true, [Word::Name(word)]) = (job.notes.dialect().is_of_autodesk(), words)
         && matches!(word.as_str(), "ON" | "OFF")
     {
         let message = format!("SPINDL/{word}: Autodesk's post exchanges ON and OFF");
@@ -34,7 +34,13 @@ pub(super) fn spindl(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Do
             "remove the manual command from the setup in the CAM system, or write SPINDL/CLW",
         );
     }
-    let said = spindle(words, job)?;
+    let said = match (job.notes.dialect(), words) {
+        // the post negates the speed of a left-hand tap, and writes the direction of the tool library
+        (Dialect::Camplete, [unit, Word::Number(speed), _]) if *speed < 0.0 => {
+            spindle(&[unit.clone(), Word::Number(-speed), Word::Name("CCLW".into())], job)?
+        }
+        _ => spindle(words, job)?,
+    };
     job.spindle.say(said);
     follow_spindle(cycle, job)?;
     if job.changes() || !job.has_operation() {
@@ -128,16 +134,47 @@ pub(super) fn coolnt(words: &[Word], job: &mut Job<'_>) -> Done {
             job.notes.warn(Code::PL008, message, "change the program, or write COOLNT/FLOOD");
             Coolant::FLOOD
         }
-        _ => return fault(Code::PL002, format!("COOLNT can't take `{name}`"), "write ON, FLOOD, MIST or OFF"),
+        _ if job.notes.dialect() == Dialect::Camplete => camplete_coolant(name)?,
+        _ => return no_coolant(name),
     };
+    if job.notes.dialect() == Dialect::Camplete {
+        return job.coolant(with_coolant(job.tools.coolant, coolant, name == "ON"));
+    }
     job.coolant(coolant)
+}
+
+/// The kinds of coolant that Autodesk's post for CAMplete writes with a number. `None`: forms have no such kind.
+const CUSTOM: [(&str, Option<Coolant>, &str); 3] =
+    [("CUSTOM1", Some(Coolant::AIR), "air"), ("CUSTOM2", None, "air through the tool"), ("CUSTOM3", None, "suction")];
+
+/// Reads COOLNT/CUSTOMn.
+fn camplete_coolant(name: &str) -> Done<Coolant> {
+    match CUSTOM.iter().find(|(word, ..)| *word == name) {
+        Some((_, Some(coolant), _)) => Ok(*coolant),
+        Some((_, None, kind)) => {
+            let help = "select another coolant in the CAM system, or write COOLNT/AIR or THRU";
+            fault(Code::PL002, format!("COOLNT/{name} is {kind}, which forms can't print"), help)
+        }
+        None => no_coolant(name),
+    }
+}
+
+fn no_coolant<T>(name: &str) -> Done<T> {
+    fault(Code::PL002, format!("COOLNT can't take `{name}`"), "write ON, FLOOD, MIST or OFF")
+}
+
+/// The coolant after a statement that turns on one more kind. ON, which names no kind, leaves the kinds that are on.
+fn with_coolant(before: Option<Coolant>, said: Coolant, is_on: bool) -> Coolant {
+    match before.filter(|before| *before != Coolant::OFF) {
+        Some(before) if is_on => before,
+        Some(before) if said != Coolant::OFF => before.and(said),
+        _ => said,
+    }
 }
 
 /// Handles CUTCOM/LEFT, RIGHT and OFF. Compensation changes with the next motion.
 pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &mut Job<'_>) -> Done {
-    if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
-        && word == "ON"
-    {
+    if job.notes.dialect().is_of_autodesk() && matches!(words, [word] if word.is("ON")) {
         return Ok(()); // a later statement gives the side
     }
     let side = |name: &str| match name {
@@ -151,6 +188,7 @@ pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &m
         match (word, word.name().and_then(side)) {
             (_, Some(side)) => once(&mut asked, side, word)?,
             (Word::Name(name), _) if ignore("CUTCOM", name, &mut job.notes) => {}
+            (Word::Number(register), _) if job.diameter_register() == Some(*register) => {}
             (Word::Number(_), _) => job.notes.warn(
                 Code::PL008,
                 "the offset register of the tool is printed, not the register of CUTCOM",

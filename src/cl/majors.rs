@@ -4,11 +4,11 @@ use super::arcs::circle;
 use super::dialect::{Dialect, Sense};
 use super::fault::{Done, fault};
 use super::feed::{delay, fedrat};
-use super::ignored::{ignore_rest, ignore_statement};
+use super::ignored::{ignore, ignore_rest, ignore_statement};
 use super::job::{Job, Waiting};
 use super::load::{load, tool_path};
 use super::machine::{coolnt, cutcom, spindl, units};
-use super::motion::{from, godlta, gohome, goto_words, rapid, tlaxis, trans};
+use super::motion::{from, godlta, gohome, goto_words, multax, rapid, tlaxis, trans};
 use super::setup::Setups;
 use super::setups::{csys, mcs, msys, one_work_offset};
 use super::state::State;
@@ -45,6 +45,7 @@ pub(super) enum Major {
     Trans,
     Origin,
     Tlaxis,
+    Multax,
     Set,
     Auxfun,
     Prefun,
@@ -61,6 +62,8 @@ pub(super) enum Major {
     Turret,
     /// Selects an offset register of the tool.
     Register,
+    /// Sets a parameter of CAMplete for the tool path.
+    Parameter,
     /// Clamps an axis.
     Clamp,
     /// Known words that have no effect on motions.
@@ -76,14 +79,15 @@ impl Major {
     /// Whether a number of the statement may have blanks inside, because no value of the program comes from the numbers of
     /// the statement.
     pub fn takes_no_number(self) -> bool {
-        use Major::{Clamp, EndOfPath, Ignored, Machin, None, Set, ToolPath, Unknown};
-        matches!(self, Ignored | Unknown | None | EndOfPath | ToolPath | Machin | Set | Clamp)
+        use Major::{Clamp, EndOfPath, Ignored, Machin, Multax, None, Parameter, Set, ToolPath, Unknown};
+        matches!(self, Ignored | Unknown | None | EndOfPath | ToolPath | Machin | Multax | Parameter | Set | Clamp)
     }
 
     /// Whether a statement may end with a comma, because no value of the program comes from its last words. Some systems
     /// continue such statements without `$`.
     pub fn may_end_with_comma(self) -> bool {
-        matches!(self, Major::Ignored | Major::Unknown | Major::Cutter | Major::Data | Major::Machin | Major::None)
+        use Major::{Cutter, Data, Ignored, Machin, Multax, None, Parameter, Unknown};
+        matches!(self, Ignored | Unknown | Cutter | Data | Machin | Multax | Parameter | None)
     }
 }
 
@@ -101,10 +105,10 @@ const MAJORS: &[(&str, Major)] = &[
     ("TLAXIS", Major::Tlaxis), ("SET", Major::Set), ("AUXFUN", Major::Auxfun), ("PREFUN", Major::Prefun),
     ("$DATA", Major::Data), ("FINI", Major::Fini), ("END", Major::Fini), ("END-OF-PATH", Major::EndOfPath),
     ("TOOLPATH", Major::ToolPath), ("MSYS", Major::Msys), ("CSYS", Major::Csys), ("MCS", Major::Mcs), ("MACHIN", Major::Machin), ("SYN", Major::Ignored),
-    ("MULTAX", Major::Ignored), ("SELECT", Major::Ignored), ("SELCTL", Major::Ignored), ("PAINT", Major::Ignored),
+    ("MULTAX", Major::Multax), ("SELECT", Major::Ignored), ("SELCTL", Major::Ignored), ("PAINT", Major::Ignored),
     ("INTOL", Major::Ignored), ("OUTTOL", Major::Ignored), ("TOLER", Major::Ignored), ("AUTOPS", Major::Ignored),
     ("MODE", Major::Set), ("ARCSLP", Major::Ignored), ("CLEARP", Major::Ignored), ("SEQNO", Major::Ignored),
-    ("SETUP", Major::Ignored), ("TRNTYP", Major::Ignored), ("CLAMP", Major::Clamp),
+    ("SETUP", Major::Ignored), ("TRNTYP", Major::Ignored), ("CLAMP", Major::Clamp), ("CSI_SET_PATH_PARAM", Major::Parameter),
     ("OFSETNO", Major::Register), ("OSETNO", Major::Register), ("LINTOL", Major::Ignored), ("CLRSRF", Major::Ignored),
     ("TRACUT", Major::Refused), ("COPY", Major::Refused), ("INDEX", Major::Refused), ("BLOCK", Major::Refused),
     ("CALSUB", Major::Refused), ("DEFSUB", Major::Refused), ("ENDSUB", Major::Refused), ("MACRO", Major::Refused),
@@ -165,6 +169,7 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Trans => trans(words, &mut motion.shift, false),
         Major::Origin => trans(words, &mut motion.shift, true),
         Major::Tlaxis => tlaxis(words, state),
+        Major::Multax => multax(words, state),
         Major::Set => set(name, words, job),
         Major::Auxfun => code('M', name, words, job),
         Major::Prefun => code('G', name, words, job),
@@ -178,7 +183,9 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
             Ok(())
         }
         Major::Machin => {
-            job.notes.fact(shown(name, words));
+            if !words.is_empty() {
+                job.notes.fact(shown(name, words));
+            }
             if words.iter().any(|word| word.is("TURN") || word.is("LATHE")) { job.turning() } else { Ok(()) }
         }
         Major::Csys => {
@@ -188,8 +195,9 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         }
         Major::Mcs => {
             job.notes.fact(shown(name, words));
-            mcs(words, job)
+            mcs(words, state)
         }
+        Major::Offset if job.notes.dialect() == Dialect::Camplete => work_offset(name, words, job),
         Major::Offset => {
             let help = "let the CAM system write a separate file for each work offset: each file is a job";
             fault(
@@ -212,6 +220,13 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         }
         Major::Fini => super::cycle::end(cycle, job),
         Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
+        Major::Parameter => {
+            for word in words.iter().filter_map(Word::name) {
+                job.tools.is_forced |= word == "CSI_FORCE_TOOL_CHANGE=1";
+                ignore(name, word, &mut job.notes);
+            }
+            Ok(())
+        }
         Major::Clamp => {
             ignore_statement(name, words, "clamps of axes are not printed", &mut job.notes);
             Ok(())
@@ -241,7 +256,7 @@ fn is_aside(major: Major, state: &State<'_>) -> bool {
         }
         Major::Stop | Major::Opstop | Major::Delay | Major::Auxfun | Major::Prefun => true,
         // these are skipped too if the setups are only listed
-        Major::Cycle | Major::Refused | Major::Offset | Major::Msys | Major::Mcs => {
+        Major::Cycle | Major::Refused | Major::Offset | Major::Msys => {
             state.setups.as_ref().is_some_and(Setups::are_listed)
         }
         _ => false,
@@ -255,6 +270,9 @@ fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
         let message = format!("the unknown word `{name}` is in front of {hidden}");
         return fault(Code::PL001, message, "remove the word, or put it on a separate line");
     }
+    if job.notes.dialect().has_no_effect(name) {
+        return Ok(());
+    }
     // a statement without a slash, and a number: RAPID120 is read from `RAPID   120`
     let bare = name.trim_end_matches(|c: char| c.is_ascii_digit());
     if words.is_empty() && bare != name && !major(bare).takes_no_number() {
@@ -264,6 +282,14 @@ fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     }
     job.notes.unknown(name, || did_you_mean(name, MAJORS.iter().map(|(word, _)| *word)));
     Ok(())
+}
+
+/// Handles ZERO of CAMplete, which selects a work offset for the tool change before it.
+fn work_offset(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
+    match words {
+        [Word::Number(number)] if *number >= 1.0 && number.fract() == 0.0 => job.work_offset(*number),
+        _ => fault(Code::PL001, format!("{name} without the number of a work offset"), format!("write {name}/1")),
+    }
 }
 
 /// Handles AUXFUN and PREFUN, which give the number of an M or G code.
@@ -279,7 +305,7 @@ fn code(letter: char, name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
 /// Handles MODE and SET. MODE/TURN selects a lathe. Incremental positions are refused.
 fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     if name == "MODE" && words.first().is_some_and(|word| word.is("TURN")) {
-        if job.notes.dialect() == Dialect::Autodesk {
+        if job.notes.dialect().is_of_autodesk() {
             let help = "let the CAM system write JSON Lines, or an NC program, for a lathe";
             return fault(
                 Code::PL004,

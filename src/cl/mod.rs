@@ -3,6 +3,7 @@
 mod arcs;
 mod coded;
 mod cycle;
+mod cycle_camplete;
 mod cycle_dialects;
 mod cycle_words;
 mod dialect;

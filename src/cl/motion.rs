@@ -1,6 +1,7 @@
 //! Motion statements: GOTO, GODLTA, FROM, RAPID, tool axis, shifts.
 
 use super::arcs::arc_to;
+use super::dialect::Dialect;
 use super::fault::{Done, fault};
 use super::feed::{approach, feed_on_goto, feed_to_say};
 use super::holes::point;
@@ -242,6 +243,13 @@ fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
 /// setup, or skipped.
 fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
     job.close_holes()?;
+    if setups.has_own_frame() {
+        if !setups.is_chosen() {
+            return Ok(());
+        }
+        let help = "the tool axis turns inside a tool path: this path needs a five-axis machine";
+        return fault(Code::PL004, "the tool axis is not the z axis of the MCS", help);
+    }
     let begins = setups.turn(motion.axis.0);
     enter_setup(begins, setups, motion, job)?;
     if begins && setups.is_chosen() {
@@ -251,7 +259,7 @@ fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) ->
 }
 
 /// Handles the beginning of a setup, and the return to a setup because the setup after it has no motion.
-fn enter_setup(begins: bool, setups: &Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
+pub(super) fn enter_setup(begins: bool, setups: &Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
     if begins && motion.cutcom.is_in_use() {
         let help = "end compensation before the axis turns";
         return fault(Code::PL004, "the tool axis turns under cutter compensation", help);
@@ -268,6 +276,16 @@ pub(super) fn tlaxis(words: &[Word], state: &mut State<'_>) -> Done {
         Some([i, j, k]) => set_axis([*i, *j, *k], state),
         _ => fault(Code::PL001, "TLAXIS takes a vector", "write i, j, k"),
     }
+}
+
+/// Handles MULTAX. In files of Autodesk's post for CAMplete, the tool axis is upright after MULTAX/OFF: the points have
+/// no tool axis then.
+pub(super) fn multax(words: &[Word], state: &mut State<'_>) -> Done {
+    state.motion.many_axes = words.first().is_some_and(|word| word.is("ON"));
+    if state.motion.many_axes || state.job.notes.dialect() != Dialect::Camplete {
+        return Ok(());
+    }
+    set_axis([0.0, 0.0, 1.0], state)
 }
 
 /// Handles TRANS, whose values are added to all positions, and ORIGIN, whose values are subtracted.

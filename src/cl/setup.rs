@@ -26,6 +26,9 @@ pub struct Setup {
     /// The x axis of the setup. If the file has a CSYS with the same z axis, the x axis of that CSYS is used. Otherwise
     /// the x axis is horizontal and points to the right for a view along the tool.
     pub x: [f64; 3],
+    /// The origin of the setup's positions, if the file gives an origin for each setup (MCS). Otherwise the origin of the
+    /// setup is that of the file.
+    pub origin: Option<[f64; 3]>,
     /// The lines of the first and the last motion.
     pub lines: (u64, u64),
     /// Number of motions.
@@ -34,10 +37,13 @@ pub struct Setup {
 
 impl fmt::Display for Setup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [axis, x] =
-            [self.axis, self.x].map(|v| v.map(|c| (c * 1e6).round() / 1e6 + 0.0).map(|c| c.to_string()).join(" "));
+        let shown = |v: [f64; 3]| v.map(|c| (c * 1e6).round() / 1e6 + 0.0).map(|c| c.to_string()).join(" ");
         let Setup { motions, lines: (first, last), .. } = self;
-        write!(f, "tool axis {axis}, x axis {x}, {motions} motions in lines {first} to {last}")
+        write!(f, "tool axis {}, x axis {}, ", shown(self.axis), shown(self.x))?;
+        if let Some(origin) = self.origin {
+            write!(f, "origin {}, ", shown(origin))?;
+        }
+        write!(f, "{motions} motions in lines {first} to {last}")
     }
 }
 
@@ -78,18 +84,34 @@ impl Setups {
 
     /// Handles a new tool axis. A setup without motions is removed. Returns whether another setup begins.
     pub fn turn(&mut self, axis: [f64; 3]) -> bool {
+        let x = self.x_of(axis);
+        self.begin(Setup { axis, x, origin: None, lines: (0, 0), motions: 0 }, |last| same(last.axis, axis))
+    }
+
+    /// Handles MCS, which gives the x and z axes and the origin of the positions after it. A setup without motions is
+    /// removed. Returns whether another setup begins.
+    pub fn mcs(&mut self, x: [f64; 3], axis: [f64; 3], origin: [f64; 3]) -> bool {
+        let is_last = |last: &Setup| same(last.axis, axis) && same(last.x, x) && last.origin == Some(origin);
+        self.begin(Setup { axis, x, origin: Some(origin), lines: (0, 0), motions: 0 }, is_last)
+    }
+
+    fn begin(&mut self, setup: Setup, is_last: impl Fn(&Setup) -> bool) -> bool {
         if self.found.last().is_some_and(|last| last.motions == 0) {
             self.found.pop();
             self.is_fresh = false;
         }
-        let is_last = |last: &Setup| last.axis.iter().zip(axis).all(|(a, b)| (a - b).abs() < SAME);
         let begins = !self.found.last().is_some_and(is_last) && self.found.len() < MOST;
         if begins {
             // the first setup is not fresh, because a file may begin with a cut
             self.is_fresh = !self.found.is_empty();
-            self.found.push(Setup { axis, x: self.x_of(axis), lines: (0, 0), motions: 0 });
+            self.found.push(setup);
         }
         begins
+    }
+
+    /// Whether the positions of the current setup are in its own frame, which MCS gives.
+    pub fn has_own_frame(&self) -> bool {
+        self.found.last().is_some_and(|last| last.origin.is_some())
     }
 
     /// Handles CSYS, which gives the x and z axes of a coordinate system.
@@ -145,9 +167,9 @@ impl Setups {
         fault(Code::PL004, format!("the file has no setup {chosen}"), help)
     }
 
-    /// The frame of the current setup.
+    /// The frame to which the positions of the current setup are converted. `None`: they are in this frame.
     pub fn frame(&self) -> Option<Frame> {
-        let Setup { axis, x, .. } = self.found.last()?;
+        let Setup { axis, x, .. } = self.found.last().filter(|last| last.origin.is_none())?;
         Some(Frame([*x, cross(*axis, *x), *axis]))
     }
 
@@ -156,6 +178,11 @@ impl Setups {
         let moved = self.found.iter().rposition(|setup| setup.motions > 0).map_or(0, |last| last + 1);
         &self.found[..moved]
     }
+}
+
+/// Whether two unit vectors are equal.
+fn same(a: [f64; 3], b: [f64; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME)
 }
 
 fn unit(v: [f64; 3]) -> Option<[f64; 3]> {

@@ -2,8 +2,9 @@
 
 use super::fault::{Done, fault};
 use super::job::Job;
+use super::motion::enter_setup;
 use super::setup::{Setups, lies_along};
-use super::state::Motion;
+use super::state::{Motion, State};
 use super::words::{Word, numbers};
 use crate::diag::Code;
 
@@ -12,15 +13,33 @@ pub(super) fn msys(words: &[Word], job: &mut Job<'_>) -> Done {
     one_origin("MSYS", words, job)
 }
 
-/// Handles MCS of CAMplete's post: the three rows of a rotation, and then the origin of positions.
-pub(super) fn mcs(words: &[Word], job: &mut Job<'_>) -> Done {
-    let upright =
-        |v: &[f64]| lies_along([v[0], v[1], v[2]], [1.0, 0.0, 0.0]) && lies_along([v[6], v[7], v[8]], [0.0, 0.0, 1.0]);
-    if !numbers(words).is_some_and(|values| values.len() == 12 && upright(&values)) {
-        let help = "let the CAM system write a separate file for each setup, with its MCS upright";
-        return fault(Code::PL004, "an MCS that is turned, or that can't be read", help);
+/// Handles MCS of Autodesk's post for CAMplete: the x, y and z axes of the frame of the positions, and then its origin.
+/// In a file with several setups, each MCS with another frame begins a setup.
+pub(super) fn mcs(words: &[Word], state: &mut State<'_>) -> Done {
+    let State { job, motion, setups, .. } = state;
+    let Some([x, z, origin]) =
+        numbers(words).filter(|v| v.len() == 12).map(|v| [0, 6, 9].map(|i| [v[i], v[i + 1], v[i + 2]]))
+    else {
+        return fault(Code::PL004, "an MCS that can't be read", "write the x, y and z axes, and the origin");
+    };
+    match setups {
+        Some(setups) => {
+            job.close_holes()?;
+            let begins = setups.mcs(x, z, origin);
+            enter_setup(begins, setups, motion, job)?;
+            job.drop_change();
+        }
+        None if lies_along(x, [1.0, 0.0, 0.0]) && lies_along(z, [0.0, 0.0, 1.0]) => one_origin("MCS", words, job)?,
+        None => {
+            let help = "`check` lists the setups of the file; print each with `--setup`";
+            return fault(
+                Code::PL004,
+                "a turned MCS: the tool paths after it belong to another setup of the part",
+                help,
+            );
+        }
     }
-    one_origin("MCS", words, job)
+    job.end_heading()
 }
 
 /// Checks that the file has only one origin of positions. One work offset can't represent two origins.
@@ -32,7 +51,10 @@ fn one_origin(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
             let message = format!(
                 "this {name} differs from the {name} of line {line}: the positions after it have another origin"
             );
-            let help = format!("let the CAM system write a separate file for each {name}: each file is a setup");
+            let help = match name {
+                "MCS" => "`check` lists the setups of the file; print each with `--setup`".to_owned(),
+                _ => format!("let the CAM system write a separate file for each {name}: each file is a setup"),
+            };
             return fault(Code::PL004, message, help);
         }
     }

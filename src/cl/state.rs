@@ -40,6 +40,8 @@ pub(super) struct Motion {
     /// Line of a FROM that gives another position than the motion before it, if no motion has followed it.
     pub jump: Option<u64>,
     pub cutcom: Cutcom,
+    /// Whether the tool axis may turn with each motion (MULTAX/ON).
+    pub many_axes: bool,
     /// The last coordinate system of the file, if no motion has followed it: its z axis and its line.
     pub frame: Option<([f64; 3], u64)>,
 }
@@ -187,8 +189,8 @@ pub(super) enum CodedReturn {
     Above(f64),
     /// The tool's height before the cycle.
     Start,
-    /// A height in the file's coordinates.
-    Height(f64),
+    /// A height in the file's coordinates. `above`: the same height above the first point, if the file gives it.
+    Height { height: f64, above: Option<f64> },
 }
 
 /// The active cycle, and values that are kept between cycles.

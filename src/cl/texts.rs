@@ -23,9 +23,28 @@ fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
     match (dialect, word) {
         // PPRINT of Makino contains data for Makino's own post processor
         (Dialect::Makino, "PPRINT") => Said::Nothing,
+        (_, "CSI_INSERT_CUSTOM_GCODE") => Said::Block(text),
+        (_, "CSI_PROGRAM_COMMENT" | "CSI_TOOL_PATH") => Said::Nothing,
+        (Dialect::Camplete, "PPRINT") if OF_POST.iter().any(|own| text.starts_with(own)) => Said::Nothing,
         (Dialect::SolidWorksCam, "INSERT") => stop(text).map_or(Said::Comment(text), Said::Stop),
         (_, "INSERT") if !text.starts_with('[') => Said::Block(text),
         _ => Said::Comment(text),
+    }
+}
+
+/// The texts that Autodesk's post for CAMplete writes before each tool path and before MCS. The text after `Comment:` is
+/// also that of CSI_TOOL_PATH.
+const OF_POST: [&str; 5] = ["NEW SECTION", "MATRIX DEFINITION", "Output x(", "Output dx", "Comment: "];
+
+/// How the comments begin that posts of Autodesk write instead of a stop, or of another command that they can't write.
+const NOT_WRITTEN: &str = "Unsupported ";
+
+/// Warns of a command that the post did not write.
+fn not_written(text: &str, notes: &mut Notes<'_>) {
+    if notes.dialect().is_of_autodesk() && text.starts_with(NOT_WRITTEN) {
+        let help = "if the machine must do something here, write STOP, OPSTOP, AUXFUN/code or PREFUN/code";
+        let message = format!("the post did not write a command of the CAM system, but the comment `{text}`");
+        notes.warn(Code::PL008, message, help);
     }
 }
 
@@ -59,6 +78,13 @@ pub(super) fn text(word: &str, text: String, insert: &mut Insert, job: &mut Job<
             {
                 job.name = Some(text.clone()); // without PARTNO, the first PPRINT is the name of the part
             }
+            if word == "CSI_TOOL_PATH" && job.notes.dialect() == Dialect::Camplete {
+                job.tools.operation = Some(text.clone());
+            }
+            if word == "PPRINT" && text == OF_POST[0] && job.notes.dialect() == Dialect::Camplete {
+                job.begin_heading();
+            }
+            not_written(&text, &mut job.notes);
             if word == "INSERT" && may_be_lost(&text) {
                 *insert = Some((text.clone(), job.notes.place));
             }

@@ -46,6 +46,8 @@ pub(super) struct Tools {
     not_loaded: Vec<String>,
     /// Number of the last loaded tool.
     pub loaded: Option<f64>,
+    /// Whether the next tool is changed even if it is in the spindle.
+    pub is_forced: bool,
     /// Greatest number of all loaded tools.
     pub greatest: f64,
     /// The current coolant. The coolant stays active after a tool change.

@@ -9,7 +9,7 @@ use crate::support::mill;
 use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, read_cl};
 use postform::internals::compile::Program;
 use postform::internals::render::Renderer;
-use postform::toolpath::{Event, Flow, Place, ReadError, Sink, Summary, Units};
+use postform::toolpath::{Coolant, Event, Flow, Place, ReadError, Sink, Summary, Units};
 
 const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 
@@ -390,6 +390,135 @@ fn holes_of_autodesk_begin_above_their_points() {
         assert!(read(&text(cycle), options())[0].starts_with(code), "{cycle}: {:?}", read(&text(cycle), options()));
     }
     assert!(read(&format!("{HEAD}SPINDL/ON\nFINI"), options())[0].starts_with("PL004 SPINDL/ON: Autodesk's"));
+}
+
+/// A tool path of Autodesk's post for CAMplete: the lines from NEW SECTION to the statement before the first motion.
+fn tool_path(name: &str, mcs: &str, rest: &str) -> String {
+    format!(
+        "PPRINT/'NEW SECTION'\nPPRINT/'Comment: {name}'\nCSI_TOOL_PATH/{name}\nUNITS/MM\nMULTAX/OFF\n\
+        PPRINT/'MATRIX DEFINITION'\nMCS/{mcs}\n{rest}\n"
+    )
+}
+
+const UPRIGHT: &str = "1., 0., 0., $\n0., 1., 0., $\n0., 0., 1., $\n0., 0., 0.";
+
+/// The blocks of a file with one tool path of Autodesk's post for CAMplete.
+fn camplete(rest: &str) -> Vec<String> {
+    let tool = format!("LOADTL/1, 0, 40., 1\nSPINDL/RPM,1000,CLW\n{rest}");
+    read(&format!("MODE/MILL\nPARTNO/'1'\n{}END\nFINI\n", tool_path("A", UPRIGHT, &tool)), Options::default())
+}
+
+/// The points of CAMplete's cycles are the tops of the holes. CLEAR is a height of the file, RAPTO is a distance.
+#[test]
+fn holes_of_camplete_begin_at_rapto_and_return_to_clear() {
+    let holes = |cycle: &str| {
+        let text = format!("RAPID\nGOTO/1., 1., 20.\nCYCLE/{cycle}\nGOTO/1., 1., 4.\nGOTO/2., 2., 3.\nCYCLE/OFF");
+        camplete(&text).into_iter().filter(|line| line.contains(" R") || line.starts_with('P')).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        holes("DRILL, FEDTO, 10., MMPM, 150., CLEAR, 20., RTRCTO, 16., RETURN, 16., RAPTO, 5."),
+        ["G98 G81 X1. Y1. Z-6. R9. F150.", "X2. Y2. Z-7. R8."]
+    );
+    for (cycle, error) in [
+        ("DRILL, FEDTO, 10., MMPM, 150., CLEAR, 20., RETURN, 15., RAPTO, 5.", "PC040 the return plane is at 20"),
+        ("DRILL, FEDTO, 10., MMPM, 150., CLEAR, 20., RETURN, 16.", "PL009 a cycle without RAPTO"),
+        ("BORE, FEDTO, 10., MMPM, 150., CLEAR, 20., 0.2, RETURN, 16., RAPTO, 5., ORIENT, 0", "PC015 the angle at"),
+        ("DRILL, FEDTO, 10., MMPM, 150., RAPTO, 5.", "PC040 a cycle without CLEAR"),
+        ("FACE, FEDTO, 10., MMPM, 150., CLEAR, 20., RAPTO, 5.", "PC001 `FACE` is a cycle"),
+        ("DRILL, FEDTO, 10., MMPM, 150., CLEAR, 20., RAPTO, 5., STEP, 1.", "PC018 `STEP` in a cycle"),
+        ("DRILL, FEDTO, MMPM, 150., CLEAR, 20., RAPTO, 5.", "PC033 FEDTO without its number"),
+    ] {
+        let refused = holes(cycle);
+        assert!(refused[0].starts_with(error), "{cycle}: {refused:?}");
+    }
+}
+
+/// Statements of Autodesk's post for CAMplete that differ from those of other systems.
+#[test]
+fn statements_of_camplete_are_read_as_its_post_writes_them() {
+    let cut = "RAPID\nGOTO/0., 0., 9.\nFEDRAT/100., MMPM\nGOTO/1., 0., 9.";
+    let lines = |rest: &str| camplete(&format!("{rest}\n{cut}"));
+    let has = |rest: &str, line: &str| {
+        let lines = lines(rest);
+        assert!(lines.iter().any(|found| found.starts_with(line)), "{rest}: {lines:?}");
+    };
+    // the last three numbers of CIRCLE are zero, the fourth last is the angle; circles turn clockwise about their axis
+    let arc = |axis: &str, angle: &str| {
+        format!("{cut}\nCIRCLE/1., 1., 9., 0., 0., {axis}, 1., {angle}, 0.0, 0.0, 0.0\nGOTO/2., 1., 9.")
+    };
+    has(&arc("-1.", "90."), "G17 G3 X2. Y1. I0 J1.");
+    has(&arc("1.", "270."), "G17 G2 X2. Y1. I0 J1.");
+    has(&arc("1.", "90."), "PR005 an arc of 90 degrees");
+    // only a left-hand tap has a negative speed
+    has(&format!("{cut}\nSPINDL/RPM,-500,CLW"), "S500 M4");
+    has("CSI_INSERT_CUSTOM_GCODE/G10 L2 P1 (it's $5)", "G10 L2 P1 (it's $5)");
+    has("CSI_SET_PATH_PARAM/TOOL_BREAK=ON", "PL008 TOOL_BREAK=ON of CSI_SET_PATH_PARAM is ignored");
+    has("CSI_SET_PATH_PARAM/CSI_FORCE_TOOL_CHANGE=1\nLOADTL/1, 0, 40., 1", "PL008 CSI_FORCE_TOOL_CHANGE is ignored");
+    has("PPRINT/'Unsupported command COMMANDSTOP'", "PL008 the post did not write a command");
+    has("COOLNT/CUSTOM2", "PL002 COOLNT/CUSTOM2 is air through the tool");
+    has("MULTAX/ON\nCYCLE/DRILL, FEDTO, 1., MMPM, 9., CLEAR, 9., RAPTO, 1.", "PL004 a cycle after MULTAX/ON");
+    has("SPINDL/ON", "PL004 SPINDL/ON: Autodesk's post exchanges ON and OFF");
+    has("ZERO/2", "G0 G55");
+    has("ZERO/0", "PL001 ZERO without the number of a work offset");
+    let silent = lines("CSI_TOOL_PATH/Rand \u{d8}40 it's\nUNDEFINED\nCSI_PATH_TOLERANCE/0.01");
+    assert!(!silent.iter().any(|line| line.starts_with('P')), "{silent:?}");
+}
+
+/// Each tool path of CAMplete writes all its coolants. A tool path without COOLNT has no coolant.
+#[test]
+fn coolants_of_camplete_are_those_of_each_tool_path() {
+    let cut = "RAPID\nGOTO/0,0,9\nFEDRAT/100,MMPM\nGOTO/1,0,9\n";
+    let path =
+        |coolant: &str| tool_path("A", UPRIGHT, &format!("LOADTL/1, 0, 40., 1\nSPINDL/RPM,900,CLW\n{coolant}{cut}"));
+    let text = format!("{}{}{}END\n", path("COOLNT/FLOOD\nCOOLNT/MIST\n"), path("COOLNT/ON\nCOOLNT/MIST\n"), path(""));
+    struct Coolants(Vec<Option<Coolant>>);
+    impl Sink for Coolants {
+        fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
+            if let Event::ToolChange(change) = event {
+                self.0.push(change.coolant);
+            }
+            Flow::Continue(())
+        }
+    }
+    let mut coolants = Coolants(Vec::new());
+    read_cl(text.as_bytes(), &Options::default(), &mut Report::default(), &mut coolants).unwrap();
+    let both = |coolant: &Option<Coolant>| coolant.is_some_and(|c| c.is_same(Coolant::FLOOD.and(Coolant::MIST)));
+    assert!(both(&coolants.0[0]) && both(&coolants.0[1]), "{:?}", coolants.0);
+    assert_eq!(coolants.0[2], Some(Coolant::OFF));
+}
+
+/// Each MCS with another frame is a setup, whose positions are in this frame. The texts before an MCS belong to its setup.
+/// A tool path without a work offset among others with a work offset is refused.
+#[test]
+fn setups_of_camplete_are_those_of_mcs() {
+    let front = "1., 0., 0., $\n0., 0., 1., $\n0., -1., 0., $\n5., 6., 7.";
+    let path = |name: &str, mcs: &str, zero: &str| {
+        let cut = "RAPID\nGOTO/0,0,9\nFEDRAT/100,MMPM\nGOTO/1,0,9";
+        let code = format!("CSI_TOOL_PATH/{name}\nCSI_INSERT_CUSTOM_GCODE/M{name}");
+        tool_path(name, mcs, &format!("LOADTL/{name}, 0, 9., 1\nSPINDL/RPM,900,CLW\n{zero}{cut}"))
+            .replace(&format!("CSI_TOOL_PATH/{name}"), &code)
+    };
+    let text = format!(
+        "{}{}{}{}END\n",
+        path("21", UPRIGHT, "ZERO/1\n"),
+        path("22", front, "ZERO/2\n"),
+        path("23", front, "ZERO/2\n"),
+        path("24", UPRIGHT, "ZERO/1\n")
+    );
+    let found = postform::internals::cl::setups(text.as_bytes(), &Options::default()).unwrap();
+    let said: Vec<String> = found.iter().map(ToString::to_string).collect();
+    assert_eq!(said[1], "tool axis 0 -1 0, x axis 1 0 0, origin 5 6 7, 4 motions in lines 34 to 54");
+    assert_eq!(said.len(), 3);
+    let codes = |setup| {
+        let blocks = read(&text, Options { setup: Some(setup), ..Options::default() });
+        blocks.into_iter().filter(|block| block.starts_with("M2")).collect::<Vec<_>>()
+    };
+    assert_eq!([codes(1), codes(2), codes(3)], [vec!["M21"], vec!["M22", "M23"], vec!["M24"]]);
+    let whole = read(&text, Options::default());
+    assert!(whole[0].starts_with("PL004 a turned MCS"), "{whole:?}");
+    let mixed = format!("{}{}END\n", path("21", UPRIGHT, "ZERO/1\n"), path("22", UPRIGHT, ""));
+    let mixed = read(&mixed, Options::default());
+    assert!(mixed[0].starts_with("PL004 some tool paths of the file have a work offset"), "{mixed:?}");
 }
 
 /// BORE of NX feeds out of the hole. BORE with DRAG retracts at rapid. In files of other systems, BORE stops the
@@ -837,7 +966,7 @@ fn work_offsets_and_frames_of_cl_files_are_not_passed_over() {
     assert_eq!(body(&format!("{upright}\nGOTO/1,0,10")), ["G1 X1. F100."]);
     let other = format!("{upright}\nGOTO/1,0,10\n{}", upright.replace("0,0,0", "5,0,0"));
     assert!(error(&other).starts_with("PL004 this MCS differs from the MCS of line 7"));
-    assert!(error("MCS/1,0,0,0,0,-1,0,1,0,0,0,0").starts_with("PL004 an MCS that is turned"));
+    assert!(error("MCS/1,0,0,0,0,-1,0,1,0,0,0,0").starts_with("PL004 a turned MCS"));
 }
 
 /// An ignored word may be the cause of an error that follows. The error then names the word.
@@ -902,7 +1031,11 @@ fn the_motion_after_a_cycle_is_a_rapid_only_without_a_feed() {
         let cycle = after("GOTO/9,9,-3")
             .replace(
                 "DEPTH,5,CLEAR",
-                if matches!(dialect, "solidworks" | "nx" | "ncl") { "FEDTO,5,RAPTO" } else { "DEPTH,5,CLEAR" },
+                match dialect {
+                    "solidworks" | "nx" | "ncl" => "FEDTO,5,RAPTO",
+                    "camplete" => "FEDTO,5,CLEAR,2,RAPTO",
+                    _ => "DEPTH,5,CLEAR",
+                },
             )
             .replace("FEDTO,5", if dialect == "nx" { "FEDTO,-5" } else { "FEDTO,5" });
         assert_eq!(read(&format!("{HEAD}{cycle}\nFINI\n"), options), [down], "{dialect}");

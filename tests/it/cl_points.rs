@@ -40,28 +40,30 @@ fn after(words: &[&str], word: &str) -> Option<f64> {
     words.get(at + 1)?.parse().ok()
 }
 
-/// A cycle: its depth below the point, and the height above the point at which the feed begins. For Autodesk, both are
-/// absolute heights.
+/// A cycle: its depth below the point, and the height above the point at which the feed begins. For Autodesk's ISO post,
+/// both are absolute heights.
 #[derive(Clone, Copy)]
 enum Cycle {
     Below(f64, f64),
     Bottoms(f64),
 }
 
-fn cycle(words: &[&str], autodesk: bool) -> Cycle {
+fn cycle(words: &[&str], autodesk: bool, camplete: bool) -> Cycle {
     let number = |at: usize| words.get(at).and_then(|word| word.parse::<f64>().ok());
     if autodesk {
         let unit = words.iter().position(|w| *w == "MMPM" || *w == "IPM").unwrap();
         return Cycle::Bottoms(number(unit + 2).unwrap() - after(words, "RAPTO").unwrap_or(0.0));
     }
     let depth = after(words, "DEPTH").or(after(words, "FEDTO").map(f64::abs)).or(number(1)).unwrap();
-    let clear = after(words, "CLEAR").or(after(words, "RAPTO")).or(number(2)).unwrap();
+    // CLEAR of CAMplete is a height of the file
+    let clear = after(words, "CLEAR").filter(|_| !camplete).or(after(words, "RAPTO")).or(number(2)).unwrap();
     Cycle::Below(depth, clear)
 }
 
 /// The actions that a CL file requests.
 fn wanted(text: &str) -> Vec<Item> {
     let autodesk = text.starts_with("MODE/");
+    let camplete = text.contains("MATRIX DEFINITION");
     // statements, without comments, with continued lines joined
     let mut statements = vec![String::new()];
     for line in text.lines() {
@@ -86,7 +88,7 @@ fn wanted(text: &str) -> Vec<Item> {
             "CIRCLE" | "MOVARC" => arc = true,
             "CYCLE" if matches!(rest[0], "INIT" | "CLEAR") => {}
             "CYCLE" if rest[0] == "OFF" => (active, rapid) = (None, true),
-            "CYCLE" => (active, rapid) = (Some(cycle(rest, autodesk)), false),
+            "CYCLE" => (active, rapid) = (Some(cycle(rest, autodesk, camplete)), false),
             "GOHOME" => (at, rapid) = ([numbers[0], numbers[1], numbers[2]], false),
             "TLON" => {
                 let last: Vec<f64> = rest[rest.len() - 3..].iter().map(|word| word.parse().unwrap()).collect();
@@ -246,7 +248,7 @@ fn programs_of_written_files_cut_and_drill_what_the_files_say() {
         assert_made(&name, &wanted, &made(&program));
         count += 1;
     }
-    assert_eq!(count, 7);
+    assert_eq!(count, 8);
 }
 
 /// The comparison of this test finds each kind of fault: a wrong point, a wrong depth, a wrong clearance, a missing

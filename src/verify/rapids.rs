@@ -153,12 +153,12 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
             })
             .collect();
         if known.is_empty() && !was {
-            let tools = s
+            let mut tools = s
                 .job
                 .legs()
                 .map(|(own, _)| own.frame)
                 .filter(|own| tools && own.work == leg.frame.work && own.tool != leg.frame.tool);
-            wrong = Some((leg.frame, tools.last().map_or(Astray::Frame, |own| Astray::Tool(own.tool))));
+            wrong = Some((leg.frame, tools.next_back().map_or(Astray::Frame, |own| Astray::Tool(own.tool))));
             break;
         }
         let allowed = |length: &Option<f64>| {

@@ -351,6 +351,12 @@ impl Reader<'_> {
             }
             keeps => keeps.as_ref().is_some_and(|keeps| *keeps.get_ref()),
         };
+        let rigid = match &row.rigid {
+            Some(at) if !motions.is_some_and(Motions::taps) => {
+                return Err(of_another("rigid", at.span().start, "cycles that tap"));
+            }
+            rigid => rigid.as_ref().map(|at| *at.get_ref()),
+        };
         let ended = |text: &Spanned<String>| {
             let message = format!("`{}` is not a code", text.get_ref());
             text.get_ref().parse::<Code>().map_err(|_| self.wrong(text.span().start, message, "write M126 or G43"))
@@ -369,6 +375,7 @@ impl Reader<'_> {
             stops_rotary,
             ends,
             angle,
+            rigid,
             by_diameter,
         })
     }

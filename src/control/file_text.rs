@@ -295,4 +295,5 @@ pub(super) struct RowText {
     pub(super) stops_rotary: Option<StopsRotary>,
     pub(super) ends: Option<Spanned<String>>,
     pub(super) angle: Option<Spanned<String>>,
+    pub(super) rigid: Option<Spanned<bool>>,
 }

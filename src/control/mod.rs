@@ -300,6 +300,11 @@ impl Control {
         (codes && self.traits.work_letter.is_none()).then_some(54.0)
     }
 
+    /// Whether the control selects work offsets by numbers from 1, not by codes.
+    pub fn counts_work(&self) -> bool {
+        matches!(self.first(Meaning::Work).and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
+    }
+
     /// The control's row for a code. The row of the code itself has priority, then the row of the code's whole number,
     /// then the row of the code's letter. `None`: the code is unknown.
     #[doc(hidden)]

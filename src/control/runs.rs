@@ -179,6 +179,8 @@ pub struct Runs {
     pub ends: Option<super::Code>,
     /// The words that give the angle at which the code stops the spindle.
     pub angle: Words,
+    /// For a tapping cycle: whether the control synchronises feed and spindle. `None`: the code does not define it.
+    pub rigid: Option<bool>,
     /// Whether cutter compensation uses no register: D is a diameter, or the diameter belongs to the tool.
     pub by_diameter: bool,
 }

@@ -147,6 +147,11 @@ fn about(row: &Row) -> String {
     if row.stops_spindle {
         text += "; the spindle stops";
     }
+    text += match row.runs.rigid {
+        None => "",
+        Some(true) => "; the feed follows the spindle (rigid)",
+        Some(false) => "; with a floating holder",
+    };
     if row.runs.may_keep_length {
         text += "; a setting decides whether the active tool length counts";
     }

@@ -268,12 +268,21 @@ pub struct Cycle {
     pub dwells: bool,
     /// For a tap: whether the control synchronises feed and spindle. `None`: the code of the cycle does not define it.
     pub rigid: Option<bool>,
+    /// For a tap: the angle in degrees to which the control turns the spindle before the thread. `None`: the cycle has
+    /// no such angle.
+    pub start: Option<f64>,
 }
 
 impl Cycle {
     /// The cycle of a row of the code table; `None`: the code of the row is not a cycle.
     pub fn of(row: &Row) -> Option<Cycle> {
-        Some(Cycle { code: row.code, motions: row.runs.motions?, dwells: row.dwells(), rigid: None })
+        Some(Cycle {
+            code: row.code,
+            motions: row.runs.motions?,
+            dwells: row.dwells(),
+            rigid: row.runs.rigid,
+            start: None,
+        })
     }
 
     /// The name of the cycle, as a program writes it.

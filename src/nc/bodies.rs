@@ -7,7 +7,7 @@ use super::out::Out;
 use super::state::State;
 use crate::control::{Motions, Rules};
 use crate::diag::Code;
-use crate::toolpath::{FeedMode, StopKind, Units};
+use crate::toolpath::{FeedMode, StopKind};
 
 impl Drilling {
     /// The position at a height on the axis of the hole.
@@ -36,13 +36,7 @@ impl State {
 
     /// The rapid into a hole after a peck stops at this distance above the depth reached so far.
     pub(super) fn back_off(&self) -> f64 {
-        let inch = self.modes.units == Units::Inch;
-        self.settings.back_off.unwrap_or(match (self.control.is_linuxcnc(), inch) {
-            (false, true) => 0.02,
-            (false, false) => 0.5,
-            (true, true) => 0.010,
-            (true, false) => 0.254,
-        })
+        self.settings.back_off_in(self.modes.units)
     }
 
     /// Records that the tool moves to a height of the hole. `clear`: the height is the return level.

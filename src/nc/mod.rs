@@ -54,7 +54,7 @@ mod unpointed;
 mod warnings;
 mod way;
 
-pub use action::{Action, Cooling, Drilling, Item, Position, ROTARY, Rotation, Threading, Turn};
+pub use action::{Action, Cooling, Cycle, Drilling, Item, Position, ROTARY, Rotation, Threading, Turn};
 pub(crate) use action::{Compensation, Cutter};
 pub(crate) use arcs::axes_of;
 pub(crate) use digits::Number;

@@ -47,6 +47,16 @@ pub enum Unpointed {
 }
 
 impl RunSettings {
+    /// The retract of G73, and the distance above the last depth at which the rapid of G83 ends, in these units.
+    pub fn back_off_in(&self, units: Units) -> f64 {
+        self.back_off.unwrap_or(match (self.control.is_linuxcnc(), units) {
+            (false, Units::Inch) => 0.02,
+            (false, Units::Mm) => 0.5,
+            (true, Units::Inch) => 0.010,
+            (true, Units::Mm) => 0.254,
+        })
+    }
+
     /// The settings of a control at power-up.
     pub fn new(control: &'static Control) -> RunSettings {
         RunSettings {

@@ -264,7 +264,7 @@ impl Plan {
         Plan {
             settings,
             expectation: form.map_or_else(
-                || Expectation::of_control(settings.control),
+                || Expectation::of_control(&settings),
                 |form| {
                     // an invalid value is reported as an error when the program is printed
                     let given = options.given_properties(&form.settings).unwrap_or_default();
@@ -290,6 +290,8 @@ fn prove(
     let Plan { settings, mut expectation, in_units_of_job, assumed } = Plan::of(form, options, proof, settings);
     // if the job is itself an NC program, it has its own length registers, or none
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
+    // in an NC program, M29 makes a tap rigid, so the other program needs M29 too
+    expectation.announces_taps |= form.is_none() && job.format() == Format::Nc;
     expectation.units_due &= form.is_some() || options.units.is_none();
     let mut comparer = Comparer::new(program, settings, expectation, proof.tolerance, in_units_of_job);
     let read = read_for(form.map(|form| &form.settings), &mut job, &mut comparer);

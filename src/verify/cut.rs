@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
 use crate::control::Motions;
 use crate::lang::Coolant;
-use crate::nc::{Position, Rotation, Threading, Turn, axes_of, sweep};
+use crate::nc::{Cycle, Position, Rotation, Threading, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
 
 /// A position: X Y Z in the job's units, A B C in degrees, and U V of the upper wire guide in the job's units.
@@ -133,14 +133,16 @@ pub(super) struct State {
     /// Rotation of the spindle when the control's cycle for a floating tap begins. For a cut of the job: the required
     /// rotation.
     pub into_tap: Option<Rotation>,
+    /// The angle to which the control's tapping cycle turns the spindle before the thread.
+    pub tap_start: Option<f64>,
 }
 
 impl State {
     /// Begins a tapping cycle of the control. A rigid tap starts the spindle itself. A floating tap uses the rotation
-    /// that is already on. `rigid`: whether the cycle is rigid; `None`: M29 before it decides.
-    pub fn taps(&mut self, motions: Motions, rigid: Option<bool>) {
-        let inwards = if motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
-        self.rigid = rigid.or(self.rigid);
+    /// that is already on. If the code of the cycle does not define whether the tap is rigid, M29 before it decides.
+    pub fn taps(&mut self, cycle: Cycle) {
+        let inwards = if cycle.motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
+        (self.rigid, self.tap_start) = (cycle.rigid.or(self.rigid), cycle.start);
         let floats = self.rigid == Some(false);
         self.into_tap = self.rotation.filter(|_| floats);
         if !floats {
@@ -150,7 +152,7 @@ impl State {
 
     /// Ends a canned cycle. `ahead`: whether a separate code (M29) makes the next tap rigid.
     pub fn cycle_ends(&mut self, ahead: bool) {
-        (self.into_tap, self.rigid) = (None, ahead.then_some(false));
+        (self.into_tap, self.tap_start, self.rigid) = (None, None, ahead.then_some(false));
     }
 }
 

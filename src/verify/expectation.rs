@@ -8,6 +8,7 @@ use crate::compile::{Op, Program, WorkWords};
 use crate::control::{Code, Control, Meaning};
 use crate::cycle::Defaults;
 use crate::lang::{Beam, Machine, SEQUENCES, TextId, UnitChoice, VarId, work_code};
+use crate::nc::RunSettings;
 use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
 use crate::toolpath::{EdmAction, Units};
@@ -97,9 +98,15 @@ impl Default for Expectation {
 }
 
 impl Expectation {
-    /// The defaults of a control, for a job without a form.
-    pub fn of_control(control: &Control) -> Expectation {
-        Expectation { tools: loads_tools(control), ..Expectation::default() }
+    /// The defaults of a control, for a job without a form. The pecks of the job retract as those of the control.
+    pub fn of_control(settings: &RunSettings) -> Expectation {
+        let usual = Expectation::default();
+        let defaults = [Units::Inch, Units::Mm].map(|units| {
+            let back = settings.back_off_in(units);
+            Defaults { back_deep: back, back_chipbreak: back, ..usual.defaults[0] }
+        });
+        let first_work = if settings.control.counts_work() { 1.0 } else { usual.first_work };
+        Expectation { tools: loads_tools(settings.control), defaults, first_work, ..usual }
     }
 
     /// The defaults of a form.

@@ -3,6 +3,7 @@
 
 use super::cut::{Cut, DEPTH, What, same};
 use super::program::Program;
+use super::strokes::Strokes;
 use crate::nc::RunError;
 
 /// X and Y, as bits.
@@ -12,7 +13,7 @@ const ACROSS: u8 = 0b11;
 const MOST: usize = 100_000;
 
 /// Whether a cut goes straight down or up.
-fn is_stroke(cut: &Cut, tolerance: f64) -> bool {
+pub(super) fn is_stroke(cut: &Cut, tolerance: f64) -> bool {
     matches!(cut.what, What::Line { .. }) && cut.unknown == 0 && same(&cut.from, &cut.end(), ACROSS, tolerance)
 }
 
@@ -32,27 +33,46 @@ pub(super) fn rounded_alike(a: Option<f64>, b: Option<f64>) -> bool {
     apart <= LAST_DIGITS * a.abs() || apart <= WHOLE * a.abs() && (to_whole(a, b) || to_whole(b, a))
 }
 
-/// Runs the program to the end of its current hole. Returns the depths of all strokes that go down.
+/// The cuts down in a hole.
+pub(super) struct Drilled {
+    /// The depth of each cut.
+    pub depths: Vec<f64>,
+    /// The strokes that these cuts make.
+    pub strokes: Strokes,
+}
+
+impl Drilled {
+    fn cut(&mut self, cut: &Cut, tolerance: f64) {
+        let to = cut.end()[DEPTH];
+        self.strokes.comes_to(cut.from[DEPTH]);
+        self.strokes.cut(to, tolerance, tolerance);
+        if to < cut.from[DEPTH] {
+            self.depths.push(to);
+        }
+    }
+}
+
+/// Runs the program to the end of its current hole. Returns its cuts down.
 ///
 /// # Errors
 /// The program can't be read, or its control refuses a block.
-pub(super) fn hole(program: &mut Program<'_>, first: &Cut, tolerance: f64) -> Result<Vec<f64>, RunError> {
-    let mut depths = vec![first.end()[DEPTH]];
+pub(super) fn hole(program: &mut Program<'_>, first: &Cut, tolerance: f64) -> Result<Drilled, RunError> {
+    let mut drilled = Drilled { depths: Vec::new(), strokes: Strokes::over(first.from[DEPTH]) };
+    drilled.cut(first, tolerance);
     program.take();
     loop {
-        let Some(next) = program.run_to_cut()?.cloned() else { return Ok(depths) };
+        let Some(next) = program.run_to_cut()?.cloned() else { return Ok(drilled) };
         let over = |at| same(at, &first.from, ACROSS, tolerance);
         let stays = program.passage.rapids.iter().all(|rapid| rapid.unknown == 0 && over(&rapid.to));
         let is_same = (next.feed == first.feed || rounded_alike(next.feed, first.feed))
             && next.mode == first.mode
-            && depths.len() < MOST;
+            && drilled.depths.len() < MOST;
         let here = is_stroke(&next, tolerance) && over(&next.from) && stays && is_same;
         if !here || !program.passage.stops.is_empty() || program.passage.changed() {
-            return Ok(depths);
+            return Ok(drilled);
         }
-        if next.end()[DEPTH] < next.from[DEPTH] {
-            depths.push(next.end()[DEPTH]);
-        }
+        program.passage.rapids.iter().for_each(|rapid| drilled.strokes.comes_to(rapid.to[DEPTH]));
+        drilled.cut(&next, tolerance);
         program.take();
     }
 }

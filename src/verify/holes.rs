@@ -5,8 +5,7 @@ use super::intent::{Done, Expected};
 use super::modal;
 use super::pauses;
 use super::sides::{Limits, Sides};
-use super::strokes::Strokes;
-use super::tables::LONGER;
+use super::strokes::{Strokes, lost, retracts_instead};
 use crate::diag::Code;
 
 /// Compares the program's cuts in this hole with the job's cuts. The program was already run to its first cut in the
@@ -99,7 +98,11 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
         }
     }
     identical &= count == pecks.len() && wanted_strokes.counts == strokes.counts;
-    s.report.allowed.pecks += u64::from(!identical && !hole.custom);
+    let other = u64::from(!identical && !hole.custom);
+    match retracts_instead(&wanted_strokes, &strokes) {
+        true => s.report.allowed.retracts += other,
+        false => s.report.allowed.pecks += other,
+    }
     s.hole.pecks = pecks;
     s.hole.pecks.clear();
     Ok(())
@@ -163,21 +166,8 @@ fn peck_state(
 /// must also peck it, and the tool must leave the hole as often as in the job.
 fn check(s: &mut Sides<'_>, hole: &Expected, [wanted, made]: [&Strokes; 2], line: u64) {
     let help = "print Q[vbite] with G83 or G73, according to the kind of cycle in the job";
-    let [count, outs] = wanted.counted(s.limits.tolerance);
-    if count > 1 && (made.counts[0] < 2 || made.longest > LONGER * wanted.longest) {
-        s.found(Code::PV023, line, help, || {
-            let (is, by) = (number(made.longest), number(wanted.longest));
-            format!("in the hole at {} one peck is {is} deep, but at most {by} in the job", over(&hole.at))
-        });
-    }
-    if hole.comes_out && outs > 0 && (made.counts[1] == 0 || made.farthest > LONGER * wanted.farthest) {
-        s.found(Code::PV023, line, help, || {
-            let (is, by) = (number(made.farthest), number(wanted.farthest));
-            format!(
-                "in the hole at {} the tool cuts {is} deep before it retracts out of the hole, but {by} in the job",
-                over(&hole.at)
-            )
-        });
+    for lost in lost(wanted, made, hole.comes_out, s.limits.tolerance) {
+        s.found(Code::PV023, line, help, || format!("in the hole at {} {}", over(&hole.at), lost.text("the job")));
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) struct Open {
 /// Current state of the job.
 pub(super) struct Job {
     pub(super) expectation: Expectation,
-    control: &'static Control,
+    pub(super) control: &'static Control,
     order: Order,
     pub units: Option<Units>,
     pub(super) at: Axes,

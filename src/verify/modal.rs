@@ -2,6 +2,7 @@
 
 use super::cooled;
 use super::cut::{Cut, State, is_length, number};
+use super::expectation::taps_ahead;
 use super::sides::{Sides, Unnamed};
 use super::tables::{PITCH, ROUNDED};
 use crate::diag::Code;
@@ -28,13 +29,17 @@ pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
         unsaid(&before, states),
         turning(states),
         coolant(states),
-        rigid(states, tap),
+        rigid(states, tap, s),
         into_tap(states),
         compensation(states),
     ];
     for (code, help, message) in checks.into_iter().flatten() {
         agree = false;
         s.found(code, found.line, help, || message.clone());
+    }
+    if tap && states[0].rigid == Some(false) && states[1].rigid == Some(true) {
+        s.report.allowed.taps += 1;
+        agree = false; // count each cut
     }
     agree &= speed(s, cut, found, tap);
     s.agreed = agree.then_some(both);
@@ -152,12 +157,21 @@ fn into_tap([wanted, is]: [&State; 2]) -> Option<Differs> {
     (a != b).then_some((Code::PV011, "print M[direct] before the tap, and no M5 after it", message))
 }
 
-fn rigid([wanted, is]: [&State; 2], tap: bool) -> Option<Differs> {
+fn rigid([wanted, is]: [&State; 2], tap: bool, s: &Sides<'_>) -> Option<Differs> {
     if !tap || wanted.rigid != Some(true) || is.rigid != Some(false) {
         return None;
     }
-    let message = "the job's tap is rigid, but the program has no M29 to synchronize feed and spindle".to_owned();
-    Some((Code::PV011, "print M29 S[speed] before the tap", message))
+    let (help, message) = match taps_ahead(s.program.control()) {
+        true => (
+            "print M29 S[speed] before the tap",
+            "the job's tap is rigid, but the program has no M29 to synchronize feed and spindle",
+        ),
+        false => (
+            "print the control's cycle for rigid taps, or write `\"rigid\": false` into the job",
+            "the job's tap is rigid, but the program taps with the cycle for a floating holder",
+        ),
+    };
+    Some((Code::PV011, help, message.to_owned()))
 }
 
 fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {

@@ -1,6 +1,7 @@
 //! Plans the holes of the job as the steps of its cycles.
 
 use super::cut::{DEPTH, Spin, What};
+use super::expectation::taps_ahead;
 use super::intended::{Job, rotation, wait};
 use super::intent::{Done, Expected, Intent, unproven};
 use super::tables::Unmodelled;
@@ -47,7 +48,7 @@ impl Job {
             .spec
             .rigid
             .or(self.expectation.rigid_tap)
-            .filter(|rigid| reverses && *rigid && self.expectation.announces_taps);
+            .filter(|rigid| reverses && (!rigid || self.expectation.announces_taps || !taps_ahead(self.control)));
         let mut target = self.target(&hole.at);
         target.set(DEPTH, return_plane);
         let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();

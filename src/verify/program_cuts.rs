@@ -2,8 +2,9 @@
 
 use super::begin::unsaid;
 use super::cooled;
-use super::cut::{ALL, Cut, Place, State, What, number, place, same, shown, turned_otherwise};
+use super::cut::{ALL, Cut, Place, State, What, number, place, same, shown, turned_otherwise, without_turns};
 use super::program::Program;
+use super::tables::ORIENTED;
 use super::ways::Compared;
 use crate::control::{Control, ToolLength};
 use crate::lang::{Coolant, additional_work};
@@ -149,6 +150,12 @@ pub(super) fn differs(cut: &Cut, found: &Cut, tolerance: f64, names: Names, prog
     let kind = |state: &State| (state.rigid.unwrap_or(true), state.into_tap);
     if taps && kind(&cut.state) != kind(&found.state) {
         return Some("only one program synchronizes a tap with the spindle".to_owned());
+    }
+    if let (true, Some(a), Some(b)) = (taps, cut.state.tap_start, found.state.tap_start)
+        && without_turns(a - b).abs() > ORIENTED
+    {
+        let [a, b] = [a, b].map(number);
+        return Some(format!("the thread of a tap starts at {b} degrees, but at {a} degrees in the old program"));
     }
     cutters([&cut.state, &found.state], tolerance).or_else(|| state(&cut.state, &found.state, names, program))
 }

@@ -4,15 +4,16 @@
 use std::io::{Read, Seek};
 use std::rc::Rc;
 
-use super::cut::{Cut, State, number, shown};
+use super::cut::{ACROSS, Cut, DEPTH, Place, State, number, over, same, shown};
 use super::expectation::Expectation;
-use super::folded::{begin_alike, hole, rounded_alike};
+use super::folded::{begin_alike, hole, is_stroke, rounded_alike};
 use super::measured::Frames;
 use super::passage::TOO_LONG;
 use super::program::{Doubt, Program};
 use super::program_cuts::{Names, differs, leads_otherwise};
 use super::program_passages::{between, endings, frames_of_rapids, leaving, switching};
-use super::rapid_path::{RapidPath, turn_alike, turned_low};
+use super::rapid_path::{RapidPath, highest, turn_alike, turned_low};
+use super::strokes::{lost, retracts_instead};
 use super::tails::leaves_low;
 use super::ways::{Compared, compare};
 use crate::nc::{RunError, RunSettings};
@@ -39,6 +40,9 @@ pub struct Motions {
     /// Number of holes with different pecks. Different pecks are allowed only if the programs are for different
     /// controls.
     pub pecks: u64,
+    /// Number of retracts out of a hole by the new program where the old program only breaks the chips (G83 in place of
+    /// G73).
+    pub retracts: u64,
     /// Number of feeds that differ by rounding. Rounding differences of feeds are allowed only if the programs are for
     /// different controls.
     pub feeds: u64,
@@ -73,7 +77,8 @@ pub fn compare_motions(
     b.share_tool_names(&a);
     let names = Names::of(a.control(), b.control());
     let ways = [RapidPath::default(), RapidPath::default()];
-    let mut pair = Pair { a, b, names, tolerance, ways, before: [None, None], motions: Motions::default() };
+    let mut pair =
+        Pair { a, b, names, tolerance, ways, before: [None, None], begun: None, motions: Motions::default() };
     pair.compare()?;
     Ok(Motions { has_slash: pair.a.has_slash() || pair.b.has_slash(), ..pair.motions })
 }
@@ -90,6 +95,8 @@ struct Pair<'a> {
     ways: [RapidPath; 2],
     /// The frames of both programs at the last cut.
     before: [Option<Rc<Frames>>; 2],
+    /// The position where the first cut of the current hole began.
+    begun: Option<Place>,
     motions: Motions,
 }
 
@@ -131,7 +138,6 @@ impl Pair<'_> {
     fn cut(&mut self, cut: &Cut, found: &Cut) -> Result<Option<String>, NoMotion> {
         let (tolerance, names) = (self.tolerance, self.names);
         let way = self.way();
-        self.motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
         self.motions.cuts += 1;
         let folds = names.by_order && begin_alike(cut, found, tolerance);
         let mut alike = found.clone();
@@ -149,7 +155,8 @@ impl Pair<'_> {
             .or_else(|| between(&self.a, &self.b, names, tolerance))
             .or_else(|| switching(&self.a, &self.b, names))
             .or_else(|| self.frames(true))
-            .or_else(|| leads_otherwise(way));
+            .or_else(|| leads_otherwise(way))
+            .or_else(|| self.peck(cut, way));
         if message.is_some() {
             return Ok(message);
         }
@@ -160,6 +167,35 @@ impl Pair<'_> {
         self.a.take();
         self.b.take();
         Ok(None)
+    }
+
+    /// Compares the retracts between two cuts in one hole, and counts the other paths that differ. A program that leaves
+    /// the hole clears the chips (G83). A program that stays in the hole only breaks the chips (G73).
+    fn peck(&mut self, cut: &Cut, way: Compared) -> Option<String> {
+        let tolerance = self.tolerance;
+        let goes_on = |begun: &Place| {
+            let stays = |way: &RapidPath| {
+                way.corners.iter().all(|corner| corner.unknown == 0 && same(&corner.to, begun, ACROSS, tolerance))
+            };
+            same(&cut.from, begun, ACROSS, tolerance) && self.ways.iter().all(stays)
+        };
+        let begun = self.begun.filter(goes_on);
+        let is_first = begun.is_none() && cut.end()[DEPTH] < cut.from[DEPTH];
+        self.begun = begun.or(is_first.then_some(cut.from)).filter(|_| is_stroke(cut, tolerance));
+        let comes_out =
+            |begun: Place| self.ways.each_ref().map(|way| highest(&way.corners) >= begun[DEPTH] - tolerance);
+        match begun.map(comes_out) {
+            Some([true, false]) => {
+                return Some(format!(
+                    "between two pecks in the hole at {} the tool only breaks the chips, but in the old program it \
+                     retracts out of the hole",
+                    over(&cut.from)
+                ));
+            }
+            Some([false, true]) => self.motions.retracts += 1,
+            _ => self.motions.ways += u64::from(matches!(way, Compared::AsGood { .. })),
+        }
+        None
     }
 
     /// Compares the rapids since the last cut. If the old path is lower, the paths are different.
@@ -207,17 +243,26 @@ impl Pair<'_> {
             .or_else(|| endings(&self.a, &self.b))
     }
 
-    /// Compares the depths of a hole that both programs make in other pecks, and ends the hole.
+    /// Compares a hole that both programs make in other pecks, and ends the hole.
     fn hole(&mut self, cut: &Cut, found: &Cut) -> Result<Option<String>, NoMotion> {
         let before = hole(&mut self.a, cut, self.tolerance).map_err(|error| NoMotion(0, error))?;
         let now = hole(&mut self.b, found, self.tolerance).map_err(|error| NoMotion(1, error))?;
         let near = |a: f64, b: f64| (a - b).abs() <= self.tolerance;
-        let [old, new] = [&before, &now].map(|depths| depths.iter().copied().fold(f64::INFINITY, f64::min));
+        let [old, new] = [&before, &now].map(|drilled| drilled.strokes.deepest);
         if !near(old, new) {
             return Ok(Some(format!("a hole goes to Z{}, but to Z{} in the old program", number(new), number(old))));
         }
-        let alike = before.len() == now.len() && before.iter().zip(&now).all(|(a, b)| near(*a, *b));
-        self.motions.pecks += u64::from(!alike);
+        if let Some(lost) = lost(&before.strokes, &now.strokes, true, self.tolerance).next() {
+            return Ok(Some(format!("in the hole at {} {}", over(&cut.from), lost.text("the old program"))));
+        }
+        let alike =
+            before.depths.len() == now.depths.len() && before.depths.iter().zip(&now.depths).all(|(a, b)| near(*a, *b));
+        let [a, b] = [&before.strokes, &now.strokes];
+        if retracts_instead(a, b) {
+            self.motions.retracts += b.counts[1];
+        } else {
+            self.motions.pecks += u64::from(!alike || a.counts != b.counts);
+        }
         Ok(None)
     }
 }

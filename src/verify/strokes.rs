@@ -1,6 +1,7 @@
 //! Counts the strokes in a hole by the same rules for the pecks of the job and of the program.
 
-use super::tables::LEFT;
+use super::cut::number;
+use super::tables::{LEFT, LONGER};
 
 /// The strokes of a hole so far. A stroke ends when the tool leaves the bottom of the hole, so a stroke may consist of
 /// several blocks.
@@ -63,6 +64,55 @@ impl Strokes {
         let last = self.begun - self.deepest;
         if last > (LEFT * self.longest).max(2.0 * tolerance) { self.counts } else { self.earlier }
     }
+}
+
+/// The reason why other pecks than required do not make the same hole. Each reason has the greatest depths that are made
+/// and required.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Lost {
+    /// One peck is too deep, or the hole is drilled in one stroke.
+    Pecks([f64; 2]),
+    /// The tool cuts too deep before it retracts out of the hole.
+    Retracts([f64; 2]),
+    /// The tool never retracts out of the hole, so it only breaks the chips. The required depth between two retracts.
+    AllRetracts(f64),
+}
+
+impl Lost {
+    /// The difference as text. `other`: the name of the required pecks, such as `the job`.
+    pub fn text(self, other: &str) -> String {
+        match self {
+            Lost::Pecks([is, by]) => format!("one peck is {} deep, but at most {} in {other}", number(is), number(by)),
+            Lost::Retracts([is, by]) => {
+                let (is, by) = (number(is), number(by));
+                format!("the tool cuts {is} deep before it retracts out of the hole, but {by} in {other}")
+            }
+            Lost::AllRetracts(by) => format!(
+                "the tool only breaks the chips, but in {other} it retracts out of the hole after every {} of depth",
+                number(by)
+            ),
+        }
+    }
+}
+
+/// Whether the strokes `made` retract out of the hole, but the strokes `wanted` only break the chips.
+pub(super) fn retracts_instead(wanted: &Strokes, made: &Strokes) -> bool {
+    wanted.counts[0] > 1 && wanted.counts[1] == 0 && made.counts[1] > 0
+}
+
+/// Whether the strokes `made` do not replace the strokes `wanted`. If the wanted strokes peck, the other strokes must
+/// also peck. `comes_out`: the other strokes must also leave the hole as often.
+pub(super) fn lost(wanted: &Strokes, made: &Strokes, comes_out: bool, tolerance: f64) -> impl Iterator<Item = Lost> {
+    let [count, outs] = wanted.counted(tolerance);
+    let pecks = count > 1 && (made.counts[0] < 2 || made.longest > LONGER * wanted.longest);
+    let depths = [made.farthest, wanted.farthest];
+    let retracts = match (made.counts[0], made.counts[1]) {
+        _ if !comes_out || outs == 0 => None,
+        (2.., 0) => Some(Lost::AllRetracts(wanted.farthest)),
+        (_, 0) => Some(Lost::Retracts(depths)),
+        _ => (made.farthest > LONGER * wanted.farthest).then_some(Lost::Retracts(depths)),
+    };
+    pecks.then_some(Lost::Pecks([made.longest, wanted.longest])).into_iter().chain(retracts)
 }
 
 #[cfg(test)]

@@ -551,6 +551,81 @@ fn motions_of_taps_differ_in_what_makes_them_rigid() {
     assert!(found.difference.unwrap().message.starts_with("only one program synchronizes a tap with the spindle"));
 }
 
+/// A tap begins at the angle of its cycle. If only the angle or the technology of the cycle differs, the moves are equal.
+#[test]
+fn motions_of_taps_differ_in_their_start_angle() {
+    let siemens = |angle: &str, more: &str| {
+        format!(
+            "G17 G90 G710 G94 G54\nT1 M6\nD1 S500 M3\nG0 X0 Y0 Z50\n\
+             CYCLE84(10,2,0,-10,,0,3,,1,{angle},500,500{more})\nG0 Z50\nM30\n"
+        )
+    };
+    let klartext = |angle: &str| {
+        format!(
+            "0 BEGIN PGM T MM\nTOOL CALL 1 Z S500\nL X+0 Y+0 Z+50 R0 FMAX M3\n\
+             CYCL DEF 209 TAPPING Q200=2 Q201=-10 Q239=1 Q203=0 Q204=50 Q257=0 Q256=0 Q336={angle}\n\
+             CYCL CALL\nL Z+50 FMAX\nM30\nEND PGM T MM\n"
+        )
+    };
+    let starts =
+        |new: u16| Some(format!("the thread of a tap starts at {new} degrees, but at 0 degrees in the old program"));
+    for (new, expected) in [("0", None), ("360", None), ("90", starts(90))] {
+        assert_eq!(difference("siemens", [siemens("0", ""), siemens(new, "")]), expected);
+        assert_eq!(difference("heidenhain", [klartext("0"), klartext(new)]), expected);
+    }
+    let settings = RunSettings::new(control("siemens"));
+    let other = [siemens("0", ""), siemens("0", ",,,1")].map(|program| (Cursor::new(program), settings));
+    let found = compare_motions(other, Units::Mm, 1e-6).unwrap();
+    assert_eq!((found.difference, found.codes), (None, 1), "TECHNO is not simulated");
+}
+
+/// G83 retracts out of the hole after each peck, G73 only breaks the chips. The cuts of both are equal. Pecks that clear
+/// the chips may replace pecks that only break them, but not the other way round.
+#[test]
+fn motions_of_pecks_differ_in_their_retracts() {
+    let fanuc = |cycle: &str| {
+        let text = format!(
+            "G90 G21 G17 G94 G54\nT1 M6\nG0 X0 Y0 S1000 M3\nG43 H1 Z50.\n{cycle} F100.\nX10.\nG80\nG0 Z50.\nM30\n"
+        );
+        ("fanuc", text)
+    };
+    let siemens = |cycle: &str| {
+        let text = format!(
+            "G17 G90 G710 G94 G54\nT1 M6\nD1 S1000 M3\nG0 X0 Y0 Z50 F100\nMCALL {cycle}\nG0 X0 Y0\nG0 X10\nMCALL\n\
+             G0 Z50\nM30\n"
+        );
+        ("siemens", text)
+    };
+    let clears = fanuc("G98 G83 Z-18. R2. Q5.");
+    let breaks = fanuc("G98 G73 Z-18. R2. Q5.");
+    let drills = fanuc("G98 G81 Z-18. R2.");
+    let clears_there = siemens("CYCLE83(50,0,2,-18,,-3,,0,0,0,1,1)");
+    let breaks_there = siemens("CYCLE83(50,0,2,-18,,-3,,0,0,0,1,0)");
+    let compared = |old: &(&'static str, String), new: &(&'static str, String)| {
+        let sides = [old, new].map(|(name, text)| (Cursor::new(text.clone()), RunSettings::new(control(name))));
+        let found = compare_motions(sides, Units::Mm, 1e-6).unwrap();
+        (found.difference.map(|found| found.message).unwrap_or_default(), [found.retracts, found.pecks])
+    };
+    let only_breaks = "the tool only breaks the chips, but in the old program it retracts out of the hole";
+    let one_peck = "one peck is 20 deep, but at most 5 in the old program";
+    for (old, new, message, counts) in [
+        (&clears, &breaks, only_breaks, [0, 0]),
+        (&breaks, &clears, "", [6, 0]),
+        (&clears, &clears, "", [0, 0]),
+        (&breaks, &breaks, "", [0, 0]),
+        (&clears, &breaks_there, "the tool only breaks the chips, but in the old program it retracts", [0, 0]),
+        (&breaks, &clears_there, "", [10, 0]),
+        (&clears, &clears_there, "", [0, 2]),
+        (&breaks, &breaks_there, "", [0, 2]),
+        (&clears_there, &drills, one_peck, [0, 0]),
+        (&breaks_there, &drills, one_peck, [0, 0]),
+    ] {
+        let (found, counted) = compared(old, new);
+        assert!(found.contains(message) && found.is_empty() == message.is_empty(), "{} {}: {found}", old.1, new.1);
+        assert!(!found.is_empty() || counted == counts, "{} {}: {counted:?}", old.1, new.1);
+    }
+}
+
 /// Words of LinuxCNC that change the moves of the tool or the spindle, but not the numbers in the axis words. The taper
 /// of a thread has an effect only if it is greater than 0, as in the interpreter.
 #[test]

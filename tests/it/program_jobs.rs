@@ -260,6 +260,79 @@ fn a_warning_is_counted() {
     assert!(both[0].ends_with("(3 times, the first here)"), "{both:?}");
 }
 
+/// The verdict of a program for its job, without a form.
+fn verdict_of(name: &str, mut job: Job<'_>, program: &str) -> Result<Verdict, postform::Error> {
+    let mut proof = postform::Proof::default();
+    proof.control = Some(control(name));
+    job.reading.control = proof.control;
+    proof.verify(job, Cursor::new(program)).map(|proven| proven.verdict)
+}
+
+/// A program has the pecks and the kind of taps of its job. Full retracts and rigid taps may replace chip breaks and taps
+/// with a floating holder, and are counted.
+#[test]
+fn pecks_and_taps_are_those_of_the_job() {
+    let fanuc = |cycle: &str| {
+        format!("G90 G21 G17 G94 G54\nT1 M6\nG0 X0 Y0 S500 M3\nG43 H1 Z50.\n{cycle} F500.\nG80\nG0 Z50.\nM30\n")
+    };
+    let siemens =
+        |cycle: &str| format!("G17 G90 G710 G94 G54\nT1 M6\nD1 S500 M3\nG0 X0 Y0 Z50 F500\n{cycle}\nG0 Z50\nM30\n");
+    let klartext = |cycle: &str| {
+        format!(
+            "0 BEGIN PGM T MM\nTOOL CALL 1 Z S500\nL X+0 Y+0 Z+50 R0 FMAX M3\n{cycle} Q200=2 Q201=-18 Q203=0 Q204=50\n\
+             CYCL CALL\nL Z+50 FMAX\nM30\nEND PGM T MM\n"
+        )
+    };
+    let okuma = |cycle: &str| {
+        format!("G90 G21 G17 G94\nG15 H1\nT1 M6\nG0 X0 Y0 S500 M3\nG56 H1 Z50\nG71 Z50\n{cycle} M53\nG80\nG0 Z50\nM2\n")
+    };
+    let linuxcnc =
+        |blocks: &str| format!("G21 G90 G17 G94\nT1 M6\nG43\nS500 M3\nG0 X0 Y0 Z50\n{blocks}\nG80\nG0 Z50\nM2\n");
+    let (clears, breaks, drills) =
+        (fanuc("G98 G83 Z-18. R2. Q5."), fanuc("G98 G73 Z-18. R2. Q5."), fanuc("G98 G81 Z-18. R2."));
+    let (ahead, alone) = (fanuc("M29 S500\nG98 G84 Z-18. R2."), fanuc("G98 G84 Z-18. R2."));
+    let (rigid, floating) =
+        (siemens("CYCLE84(50,0,2,-18,,0,3,,1,0,500,500)"), siemens("CYCLE840(50,0,2,-18,,0,0,3,0,,1)"));
+    let (rigid_there, floating_there) = (klartext("CYCL DEF 207 T Q239=1"), klartext("CYCL DEF 206 T Q206=500 Q211=0"));
+    let (follows, feeds) = (okuma("G284 X0 Y0 Z-18 R2 F500"), okuma("G84 X0 Y0 Z-18 R2 F500"));
+    let (pecks, retracts) = ("PV023", "1 hole with full retracts where the job only breaks the chips");
+    let (floats, follows_instead) = ("PV011", "2 tapping cuts made rigidly where the job has a floating holder");
+    for (name, job, program, expected) in [
+        ("fanuc", &breaks, &breaks, "identical"),
+        ("fanuc", &breaks, &clears, retracts),
+        ("fanuc", &breaks, &drills, pecks),
+        ("fanuc", &clears, &breaks, pecks),
+        ("fanuc", &clears, &drills, pecks),
+        ("fanuc", &drills, &breaks, "1 hole with other pecks"),
+        ("fanuc", &ahead, &ahead, "identical"),
+        ("fanuc", &ahead, &alone, floats),
+        ("fanuc", &alone, &alone, "identical"),
+        ("siemens", &rigid, &rigid, "identical"),
+        ("siemens", &rigid, &floating, floats),
+        ("siemens", &floating, &rigid, follows_instead),
+        ("heidenhain", &rigid_there, &floating_there, floats),
+        ("heidenhain", &floating_there, &rigid_there, follows_instead),
+        ("okuma", &follows, &feeds, floats),
+        ("okuma", &feeds, &follows, follows_instead),
+        ("linuxcnc", &linuxcnc("G98 G84 Z-18 R2 F500"), &linuxcnc("G98 G84 Z-18 R2 F500"), "equivalent"),
+    ] {
+        let verdict = verdict_of(name, Job::nc(job), program).unwrap();
+        let found = match &verdict {
+            Verdict::Different(found) => found.iter().map(|found| found.code.name()).collect::<Vec<_>>().join(" "),
+            other => other.to_string(),
+        };
+        assert!(found.contains(expected), "{name}:\n{job}\n{program}\n{verdict:#?}");
+    }
+    let json = r#"{"postform":1,"program":1,"units":"mm","machine":"mill","tools":[{"number":1,"length_offset":1}],
+        "operations":[{"tool":1,"work":54,"spindle":{"speed":500,"direction":"cw"},"path":[{"rapid":[0,0,50]},
+        {"cycle":{"kind":"tap","rigid":true,"depth":18,"clear":2,"return":50,"feed":500,"points":[[0,0,0]]}},{"rapid":[0,0,50]}]}]}"#;
+    let verdict = verdict_of("linuxcnc", Job::json(json), &linuxcnc("G98 G84 Z-18 R2 F500")).unwrap();
+    assert!(verdict.to_string().contains("the program taps with the cycle for a floating holder"), "{verdict:#?}");
+    let angled = siemens("CYCLE84(50,0,2,-18,,0,3,,1,90,500,500)");
+    let error = verdict_of("siemens", Job::nc(&angled), &angled).unwrap_err();
+    assert!(error.to_string().contains("CYCLE84 with the spindle angle 90 before the thread"), "{error}");
+}
+
 /// A program may begin with a cut, or may cut directly from the machine's Z0. Programs from Fusion's free licence do
 /// so. The caller gives the start position.
 #[test]

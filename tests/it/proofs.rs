@@ -803,7 +803,7 @@ fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
     let mut comparer = Comparer::new(
         Cursor::new("%\nM30\n%\n"),
         RunSettings::new(control("fanuc")),
-        Expectation::of_control(control("fanuc")),
+        Expectation::of_control(&RunSettings::new(control("fanuc"))),
         None,
         false,
     );

@@ -62,7 +62,7 @@ fn a_tolerance_of_zero_accepts_no_difference() {
         |x: &str| format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z10.\nG1 Z-5. F100.\n{x}\nG0 Z50.\nM30\n");
     let is_proven = |x: &str, tolerance: Option<f64>| {
         let settings = RunSettings::new(control("fanuc"));
-        let expectation = Expectation::of_control(control("fanuc"));
+        let expectation = Expectation::of_control(&RunSettings::new(control("fanuc")));
         let mut comparer = Comparer::new(Cursor::new(part(x)), settings, expectation, tolerance, true);
         postform::Job::nc(&part("X50.")).read(&mut comparer).unwrap();
         comparer.verdict().unwrap().is_proven()

@@ -54,8 +54,15 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
     }
     // a dwell of zero seconds is left out, unless this kind of cycle requires a dwell
     spec.dwell = Some(hole.dwell).filter(|&seconds| seconds > 0.0 || kind == CycleKind::Face);
-    let floats = hole.cycle.rigid == Some(false);
-    spec.rigid = (kind.is_tap() && (rigid || floats)).then_some(rigid);
+    if let Some(angle) = hole.cycle.start.filter(|angle| *angle != 0.0) {
+        let message = format!("{} with the spindle angle {angle} before the thread", hole.cycle.name());
+        return unsaid(
+            line,
+            message,
+            "a job has no angle at which a thread starts: write the angle 0, or leave it out",
+        );
+    }
+    spec.rigid = hole.cycle.rigid.or(rigid.then_some(true)).filter(|_| kind.is_tap());
     Ok(spec)
 }
 

@@ -7,7 +7,7 @@ use super::options::JobOptions;
 use super::pattern::Pattern;
 use super::survey::Survey;
 use super::switches::Switches;
-use crate::control::{Meaning, ToolLength, WorkOffset};
+use crate::control::{Meaning, ToolLength};
 use crate::diag::Diag;
 use crate::lang::{Machine, additional_work};
 use crate::nc::action::{Action, Item, Position, ROTARY, Turn};
@@ -75,12 +75,6 @@ impl<'a> Reader<'a> {
     /// tool.
     fn tool_is_its_own(&self) -> bool {
         self.options.settings.control.traits().tool_length == ToolLength::Tool
-    }
-
-    /// Whether the control selects work offsets by numbers from 1, not by codes.
-    fn counts_offsets(&self) -> bool {
-        let row = self.options.settings.control.first(Meaning::Work);
-        matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
     }
 
     pub fn new(
@@ -235,7 +229,7 @@ impl<'a> Reader<'a> {
             let message = format!("the work offset G54.1 P{additional}");
             return unsaid(line, message, "the work offsets of a job are 1 to 49: G54.1 P1 is 7");
         }
-        if additional <= 0.0 && code >= 50.0 && self.counts_offsets() {
+        if additional <= 0.0 && code >= 50.0 && self.options.settings.control.counts_work() {
             return unsaid(line, format!("the work offset {code}"), "the work offsets of a job are 1 to 49");
         }
         let work = if additional > 0.0 { additional + 6.0 } else { code };

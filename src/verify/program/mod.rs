@@ -367,7 +367,7 @@ impl<'a> Program<'a> {
                 self.changed();
             }
             Action::Compensation(on) => self.compensation(*on, item.line),
-            Action::Hole(hole) => self.hole(hole.cycle.motions, hole.cycle.rigid),
+            Action::Hole(hole) => self.hole(hole.cycle),
             Action::CycleOff => self.cycle_ends(),
             Action::End => {
                 self.ended = true;

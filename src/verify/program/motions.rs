@@ -1,8 +1,7 @@
 //! The rapids and cuts of the program, and the checks before each rapid or cut.
 
 use super::{Doubt, Program};
-use crate::control::Motions;
-use crate::nc::{Action, Item, Position, ROTARY, Rotation, Turn};
+use crate::nc::{Action, Cycle, Item, Position, ROTARY, Rotation, Turn};
 use crate::toolpath::FeedMode;
 use crate::verify::cut::{Cut, Rapid, Spin, What};
 use crate::verify::expectation::taps_ahead;
@@ -93,11 +92,11 @@ impl Program<'_> {
     }
 
     /// Begins a hole of a canned cycle.
-    pub(super) fn hole(&mut self, motions: Motions, rigid: Option<bool>) {
+    pub(super) fn hole(&mut self, cycle: Cycle) {
         self.cycle = true;
-        if motions.taps() {
+        if cycle.motions.taps() {
             self.before_tap.get_or_insert(self.state.rotation);
-            self.state.taps(motions, rigid);
+            self.state.taps(cycle);
         } else if self.state.into_tap.is_some() {
             self.state.into_tap = None;
         }

@@ -58,7 +58,7 @@ pub fn motion(old: &Side, new: &Side, found: &Motions) -> Value {
     });
     json!({
         "postform_diff": 1, "same": first.is_none(), "old": old.name, "new": new.name, "motion": first,
-        "cuts": found.cuts, "other_pecks": found.pecks, "rounded_feeds": found.feeds,
+        "cuts": found.cuts, "other_pecks": found.pecks, "more_retracts": found.retracts, "rounded_feeds": found.feeds,
         "left_out": { "ways": found.ways, "codes": found.codes },
     })
 }

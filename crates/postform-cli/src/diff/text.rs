@@ -290,7 +290,11 @@ pub fn verdict(old: &Side, new: &Side, found: &Motions) -> String {
         return format!("different: the motions of {} differ from those of {}\n", new.name, old.name);
     }
     let cuts = count(found.cuts as usize, "cut");
-    let mut list = counted(&[(found.pecks, "hole", "with other pecks"), (found.feeds, "feed", "rounded")]);
+    let mut list = counted(&[
+        (found.pecks, "hole", "with other pecks"),
+        (found.retracts, "retract", "out of a hole in place of a chip break"),
+        (found.feeds, "feed", "rounded"),
+    ]);
     list.extend(not_compared(found));
     match list.is_empty() {
         true => format!("identical: {} makes the motions of {} ({cuts})\n", new.name, old.name),

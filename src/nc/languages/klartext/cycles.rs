@@ -350,6 +350,7 @@ impl<'c> Work<'c> {
                 motions,
                 dwells: dwell > 0.0,
                 rigid,
+                start: (self.cycle.number == 209).then(|| self.cycle.get(336)),
             },
             at: self.stand.at,
             plane: self.stand.plane,

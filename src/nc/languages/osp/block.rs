@@ -265,12 +265,14 @@ impl Words<'_> {
         }
         let begins = self.said.cycle.is_some();
         if let Some(code) = self.said.cycle {
-            let Some(motions) = self.state.settings.control.row(code).and_then(|row| row.runs.motions) else {
+            let runs = self.state.settings.control.row(code).map(|row| &row.runs);
+            let Some((motions, rigid)) = runs.and_then(|runs| Some((runs.motions?, runs.rigid))) else {
                 return refuse(Code::PN016, format!("{code} is not supported"), "program the moves of the cycle");
             };
             let back = self.own.back;
             let (depth, r, step) = (None, None, None);
-            self.own.cycle = Some(Cycle { code, motions, depth, r, step, parts: [None; 2], feed_out: None, back });
+            self.own.cycle =
+                Some(Cycle { code, motions, rigid, depth, r, step, parts: [None; 2], feed_out: None, back });
         }
         let Some(mut cycle) = self.own.cycle else {
             return self.check_cycle_words();

@@ -26,6 +26,8 @@ pub struct Cycle {
     pub code: Name,
     /// The motions of the cycle.
     pub motions: Motions,
+    /// For a tap: whether the feed follows the spindle.
+    pub rigid: Option<bool>,
     /// The bottom of the hole: Z.
     pub depth: Option<f64>,
     pub r: Option<f64>,
@@ -112,7 +114,7 @@ impl Cycle {
             steps.push(leaves);
         }
         let hole = Drilling {
-            cycle: Drill { code: name, motions: self.motions, dwells: false, rigid: None },
+            cycle: Drill { code: name, motions: self.motions, dwells: false, rigid: self.rigid, start: None },
             at: stand.at,
             plane: stand.plane,
             r,

@@ -322,7 +322,7 @@ impl Words<'_> {
     }
 
     /// Reads the arguments of a cycle. `None`: the name is not that of a supported drilling cycle.
-    pub fn cycle(&self, name: &str, cursor: &mut Cursor<'_>) -> Done<Option<Call>> {
+    pub fn cycle(&mut self, name: &str, cursor: &mut Cursor<'_>) -> Done<Option<Call>> {
         let number = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u16>().ok());
         let Some(number) = number.filter(|number| Cycle::is_known(*number)) else { return Ok(None) };
         // of the drilling cycles, only CYCLE85 has feeds as arguments
@@ -332,7 +332,9 @@ impl Words<'_> {
         while arguments.last() == Some(&None) {
             arguments.pop();
         }
-        Ok(Some(Arc::new(Cycle::new(number, arguments)?)))
+        let cycle = Cycle::new(number, arguments)?;
+        self.own.left_out.extend(cycle.not_simulated().map(Into::into));
+        Ok(Some(Arc::new(cycle)))
     }
 
     /// Reads `HOLES1(..)`, a row of holes, or `HOLES2(..)`, a circle of holes.

@@ -1,6 +1,6 @@
 //! The drilling cycles of 840D and 828D, CYCLE81 to CYCLE89 and CYCLE840, as in the Programming Guide Cycles, section 2.1.
 
-use self::Argument::{Free, Only, Used};
+use self::Argument::{Only, Unsimulated, Used};
 use super::super::strokes::{depths, dwell};
 use crate::control::{Code as Name, Motions};
 use crate::diag::Code;
@@ -39,8 +39,8 @@ const COARSE: [(f64, f64); 21] = [
 pub enum Argument {
     /// The cycle uses the value.
     Used,
-    /// No move depends on the value.
-    Free,
+    /// No move depends on the value, so postform does not simulate the argument. The text is its name.
+    Unsimulated(&'static str),
     /// The cycle is run only if the argument has one of these values. An argument that is left out is 0.
     Only(&'static str, &'static [f64]),
 }
@@ -59,7 +59,24 @@ const CYCLES: [(u16, &[Argument]); 10] = [
     // FDEP, FDPR, DAM, DTB, DTS, FRF, VARI, AXN, MDEP, VRT, DTD, DIS1
     (83, &[Used, Used, Used, Used, Used, Used, Only("VARI", &[0.0, 1.0]), AXIS, Used, Used, Used, Used]),
     // DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PTAB, TECHNO, VARI, DAM, VRT
-    (84, &[Used, AFTER, Used, Used, Free, Used, Used, AXIS, Used, Free, Only("VARI", &[0.0, 1.0, 2.0]), Used, Used]),
+    (
+        84,
+        &[
+            Used,
+            AFTER,
+            Used,
+            Used,
+            Used,
+            Used,
+            Used,
+            AXIS,
+            Used,
+            Unsimulated("TECHNO"),
+            Only("VARI", &[0.0, 1.0, 2.0]),
+            Used,
+            Used,
+        ],
+    ),
     // DTB, SDR, SDAC, ENC, MPIT, PIT, AXN
     (840, &[Used, Only("SDR", &[0.0, 3.0, 4.0]), AFTER, Only("ENC", &[0.0, 1.0]), Used, Used, AXIS]),
     // DTB, FFR, RFF
@@ -91,7 +108,7 @@ pub fn check_arguments(call: &str, arguments: &[Option<f64>], first: usize, own:
     for (at, value) in arguments.iter().enumerate().skip(first) {
         let value = value.unwrap_or(0.0);
         let (name, values) = match own.get(at - first) {
-            Some(Used | Free) => continue,
+            Some(Used | Unsimulated(_)) => continue,
             Some(Only(name, values)) => (format!("{name} {value}"), *values),
             None => (format!("{value} as argument {}", at + 1), &[0.0][..]),
         };
@@ -133,6 +150,15 @@ impl Cycle {
     pub fn new(number: u16, arguments: Vec<Option<f64>>) -> Done<Cycle> {
         check_arguments(&format!("CYCLE{number}"), &arguments, LEVELS, Cycle::own(number).unwrap_or_default())?;
         Ok(Cycle { number, arguments })
+    }
+
+    /// The arguments that postform does not simulate, with their values, unless the value is 0.
+    pub fn not_simulated(&self) -> impl Iterator<Item = String> {
+        let own = Cycle::own(self.number).unwrap_or_default();
+        self.arguments.iter().skip(LEVELS).zip(own).filter_map(|(value, argument)| match (argument, value) {
+            (Unsimulated(name), Some(value)) if *value != 0.0 => Some(format!("{name} {value}")),
+            _ => None,
+        })
     }
 
     fn get(&self, at: usize) -> f64 {
@@ -264,6 +290,8 @@ impl Cycle {
                 motions,
                 dwells: bottom_dwell > 0.0,
                 rigid,
+                // POSS
+                start: (self.number == 84).then(|| self.get(9)),
             },
             at: stand.at,
             plane: stand.plane,

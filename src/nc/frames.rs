@@ -118,6 +118,11 @@ impl Frames {
         self.given[self.active]
     }
 
+    /// All work offsets by number: the position, the rotation, and as bits the axes that the program has set.
+    pub fn offsets(&self) -> impl Iterator<Item = (Position, f64, u8)> {
+        self.work.iter().zip(&self.rotation).zip(&self.given).map(|((work, angle), given)| (*work, *angle, *given))
+    }
+
     /// The distance by which a work offset must move, so that the machine position `place` has these values in the
     /// offset. The distance is 0 for axes without a value.
     pub fn to_stand(&self, number: usize, place: &Position, values: &[Option<f64>; 6]) -> Position {

@@ -248,6 +248,12 @@ impl State {
         self.place.frames.given()
     }
 
+    /// All work offsets by number: the position in the active units, the rotation in degrees, and as bits the axes that
+    /// the program has set.
+    pub fn offsets(&self) -> impl Iterator<Item = (Position, f64, u8)> {
+        self.place.frames.offsets()
+    }
+
     /// Sets the machine's offsets and reference points, in millimetres and degrees. Call this function before the first
     /// block.
     pub(super) fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {

@@ -61,6 +61,16 @@ pub enum Side {
     Right,
 }
 
+impl Side {
+    /// The side in words: `left` or `right`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Side::Left => "left",
+            Side::Right => "right",
+        }
+    }
+}
+
 /// The move that turns cutter compensation on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Infeed {

@@ -6,7 +6,7 @@ use super::cut::{ACROSS, Cut, DEPTH, Rapid, What, is_straight, over, same, same_
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Threaded};
-use super::passage::{Frame, Passage, TOO_LONG};
+use super::passage::{Compensated, Frame, Passage, TOO_LONG};
 use super::program::Program;
 use super::report::{Counts, Report};
 use super::sides::{Holes, Limits, Sides, Unnamed};
@@ -192,7 +192,7 @@ impl Intent for Sides<'_> {
             return Ok(());
         }
         self.job.aside |= self.hole.over.is_some_and(|over| !same(&over.at, &rapid.to, ACROSS, self.limits.tolerance));
-        self.job.rapids.push(rapid);
+        self.job.rapid(rapid);
         Ok(())
     }
 
@@ -254,6 +254,10 @@ impl Intent for Sides<'_> {
             return self.cut(&Cut { feed: None, ..cut.clone() }, None);
         }
         self.rapid(Rapid { to: end, unknown: 0, kept: 0, spin: None })
+    }
+
+    fn compensation(&mut self, on: Option<Compensated>) {
+        self.job.side = on;
     }
 
     fn wait(&mut self, seconds: f64) {

@@ -5,7 +5,7 @@ use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::form_values::by;
 use super::intent::{Done, Intent, unproven};
-use super::passage::Frame;
+use super::passage::{Compensated, Frame};
 use super::subprograms::Subprograms;
 use super::tables::Unmodelled;
 use crate::control::{Control, Group, Meaning, ToolLength};
@@ -393,12 +393,17 @@ impl Job {
         self.state.side = Some(side);
         self.state.diameter = self.diameter.filter(|_| side.is_some());
         self.compensation = side.is_some();
+        let on = side.map(|side| Compensated { side, register: self.diameter });
         if rapid {
             let cut = self.cut(What::Line { to: self.whole(&target) });
             self.at = target;
+            intent.compensation(on);
             return intent.rapid_or_feed(&cut);
         }
-        self.cut_to(target, What::Line { to: self.whole(&target) }, intent)
+        // the rapids before the move are made without the new compensation
+        self.cut_to(target, What::Line { to: self.whole(&target) }, intent)?;
+        intent.compensation(on);
+        Ok(())
     }
 
     fn arc(&mut self, arc: &Arc, to: &mut impl Intent) -> Done {

@@ -1,7 +1,7 @@
 //! The output of the job's side of the comparison: cuts, holes, threads and paths between cuts.
 
 use super::cut::{Cut, Place, Rapid};
-use super::passage::Frame;
+use super::passage::{Compensated, Frame};
 use super::tables::Unmodelled;
 use super::wire_codes::Coded;
 use crate::diag::{Code, Diag};
@@ -14,6 +14,8 @@ pub(super) trait Intent {
     fn units(&mut self, units: Units, chord: f64, increment: f64);
     /// A rapid.
     fn rapid(&mut self, rapid: Rapid) -> Done;
+    /// Turns the cutter compensation on or off.
+    fn compensation(&mut self, on: Option<Compensated>);
     /// A cut.
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done;
     /// A move that turns compensation on or off. In the program this move may be a rapid or a feed move.

@@ -5,6 +5,18 @@ use super::cut::{ALL, Place, number, same, shown};
 use super::tables::ANGLE;
 use crate::toolpath::Side;
 
+/// The zero of a program. A work offset that the program does not set is at the machine's zero.
+pub(super) struct Zero {
+    /// Machine position of the zero.
+    pub at: Place,
+    /// Rotation about the zero, in degrees.
+    pub angle: f64,
+    /// As bits, the axes for which the program has set the work offset to a machine position.
+    pub set: u8,
+    /// As bits, the axes that were shifted from an unknown machine position.
+    pub unknown: u8,
+}
+
 /// The frame of the axes, without the height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Across {

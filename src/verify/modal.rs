@@ -178,11 +178,7 @@ fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {
     if let (Some(a), Some(b)) = (wanted.side, is.side)
         && a != b
     {
-        let name = |side: Option<toolpath::Side>| match side {
-            None => "off",
-            Some(toolpath::Side::Left) => "left",
-            Some(toolpath::Side::Right) => "right",
-        };
+        let name = |side: Option<toolpath::Side>| side.map_or("off", toolpath::Side::name);
         let message = format!("cutter compensation is {}, but {} in the job", name(b), name(a));
         return Some((Code::PV018, "check InFeed and OutFeed", message));
     }

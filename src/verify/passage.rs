@@ -5,13 +5,21 @@ use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
 use super::measured::Measured;
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
-use crate::toolpath::{self, StopKind};
+use crate::toolpath::{self, Side, StopKind};
 
 /// The coordinate frame in which positions are given; the tool and the work offset define it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Frame {
     pub tool: Option<f64>,
     pub work: Option<f64>,
+}
+
+/// Cutter compensation that is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Compensated {
+    pub side: Side,
+    /// The register of the diameter; `None`: the job or the program does not name it.
+    pub register: Option<f64>,
 }
 
 /// The rapids in one frame.
@@ -99,6 +107,10 @@ pub(super) struct Passage {
     /// Whether the passage begins at the end of a cut. `false`: it begins at the start of the program.
     after_cut: bool,
     pub rapids: Vec<Rapid>,
+    /// The cutter compensation that is on now.
+    pub side: Option<Compensated>,
+    /// The compensations with which the rapids were made, in order.
+    pub compensated: Vec<Compensated>,
     /// The frames of the program's rapids.
     pub measured: Measured,
     /// The parts of the path (legs), one for each frame. The list has at least one leg.
@@ -154,6 +166,8 @@ impl Passage {
             start,
             after_cut: false,
             rapids: Vec::new(),
+            side: None,
+            compensated: Vec::new(),
             measured: Measured::default(),
             legs: vec![Leg { frame, ..Leg::default() }],
             stops: Vec::new(),
@@ -179,6 +193,7 @@ impl Passage {
     pub fn begin(&mut self, start: Rapid) {
         (self.start, self.after_cut) = (Some(start), true);
         self.rapids.clear();
+        self.compensated.clear();
         self.measured.clear();
         if self.legs.len() > 1 {
             self.legs.swap_remove(0);
@@ -201,6 +216,16 @@ impl Passage {
         self.homes = 0;
         self.machine.iter_mut().for_each(Vec::clear);
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
+    }
+
+    /// Adds a rapid, with the compensation that is on.
+    pub fn rapid(&mut self, rapid: Rapid) {
+        self.rapids.push(rapid);
+        if let Some(side) = self.side
+            && self.compensated.last() != Some(&side)
+        {
+            self.compensated.push(side);
+        }
     }
 
     /// Records a rapid of these axes to a machine position, measured from this reference point. `length`: the axis of

@@ -1,7 +1,7 @@
 //! Compares what two programs do between two cuts: stops, dwells, frames, changes of the spindle, machine positions.
 
 use super::cut::{ALL, Rapid, Spin, number, same, same_dwell};
-use super::measured::{self, Across, Between, Frames, Level, Other};
+use super::measured::{self, Across, Between, Frames, Level, Other, Zero};
 use super::passage::{AtMachine, Mark, Standing};
 use super::program::Program;
 use super::program_cuts::{Names, both_shown};
@@ -130,6 +130,34 @@ fn units(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
 pub(super) fn endings(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let (before, now) = (old.ending(), new.ending());
     (before != now).then(|| format!("the new program {now}, but the old program {before}"))
+}
+
+/// Compares the work offsets that the programs leave in the control. A program may set an offset that it does not use
+/// itself, for the program after it.
+pub(super) fn offsets_left(old: &Program<'_>, new: &Program<'_>, names: Names, tolerance: f64) -> Option<String> {
+    if names.by_order || !old.moves_zero && !new.moves_zero {
+        return None;
+    }
+    let alike = |(a, b): &(Zero, Zero)| {
+        a.set == b.set && (a.angle - b.angle).abs() <= ANGLE && same(&a.at, &b.at, ALL, tolerance)
+    };
+    let (index, (before, now)) = old.offsets().zip(new.offsets()).enumerate().find(|(_, pair)| !alike(pair))?;
+    let name = match index {
+        0 => "the offset of all work offsets".to_owned(),
+        _ if new.control().counts_work() => format!("work offset {index}"),
+        7..=9 => format!("G59.{}", index - 6),
+        10.. => format!("G54.1 P{}", index - 9),
+        _ => format!("G{}", index + 53),
+    };
+    if before.set != now.set {
+        return Some(format!("the programs set {name} for other axes, or only one program sets it"));
+    }
+    if (before.angle - now.angle).abs() > ANGLE {
+        let [now, before] = [now, before].map(|zero| number(zero.angle));
+        return Some(format!("the program rotates {name} by {now} degrees, but by {before} in the old program"));
+    }
+    let [now, before] = both_shown(&now.at, &before.at);
+    Some(format!("the program sets {name} to {now}, but to {before} in the old program"))
 }
 
 /// Compares the tool data that the programs set by G10, such as the length in a register.

@@ -11,7 +11,7 @@ use super::measured::Frames;
 use super::passage::TOO_LONG;
 use super::program::{Doubt, Program};
 use super::program_cuts::{Names, differs, leads_otherwise};
-use super::program_passages::{between, endings, frames_of_rapids, leaving, switching};
+use super::program_passages::{between, endings, frames_of_rapids, leaving, offsets_left, switching};
 use super::rapid_path::{RapidPath, highest, turn_alike, turned_low};
 use super::strokes::{lost, retracts_instead};
 use super::tails::leaves_low;
@@ -241,6 +241,7 @@ impl Pair<'_> {
             .or_else(|| self.frames(false))
             .or_else(|| elsewhere().then(|| "the path after the last cut is different".to_owned()))
             .or_else(|| endings(&self.a, &self.b))
+            .or_else(|| offsets_left(&self.a, &self.b, self.names, self.tolerance))
     }
 
     /// Compares a hole that both programs make in other pecks, and ends the hole.

@@ -3,7 +3,7 @@
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, is_length, number, same, shown};
 use super::idle;
-use super::passage::{Entry, Frame, Leg, Passage};
+use super::passage::{Compensated, Entry, Frame, Leg, Passage};
 use super::rapid_path::{turn_alike, turned_low};
 use super::sides::Sides;
 use super::tails::leaves_low;
@@ -21,12 +21,36 @@ pub(super) fn same_rapids(s: &Sides<'_>) -> bool {
         && own.first().zip(other.first()).is_none_or(|(to, is)| turn_alike(&[a, *to], &[b, *is]))
 }
 
+/// Compares the cutter compensations with which the rapids are made. The compensation moves the tool beside its
+/// programmed path also where it does not cut.
+fn compensated(s: &mut Sides<'_>, line: u64) {
+    let is =
+        |(a, b): (&Compensated, &Compensated)| a.side == b.side && a.register.is_none_or(|_| a.register == b.register);
+    let program = &s.program.passage.compensated[..];
+    let alike = |job: &[Compensated]| job.len() == program.len() && job.iter().zip(program).all(is);
+    // where the job has no rapid, the form may add rapids with the compensation that is on
+    let job = if s.job.rapids.is_empty() { s.job.side.as_slice() } else { &s.job.compensated };
+    if alike(job) || s.job.rapids.is_empty() && program.is_empty() {
+        return;
+    }
+    let text = |list: &[Compensated]| {
+        let one =
+            |on: &Compensated| on.register.map_or(on.side.name().to_owned(), |d| format!("{} D{d}", on.side.name()));
+        if list.is_empty() { "off".to_owned() } else { list.iter().map(one).collect::<Vec<_>>().join(" and ") }
+    };
+    let (job, program) = (text(job), text(program));
+    s.found(Code::PV018, line, "print G41, G42 and G40 only in InFeed and OutFeed", || {
+        format!("during the rapids here, the cutter compensation is {program}, but {job} in the job")
+    });
+}
+
 /// Compares the paths of job and program to the next cut.
 pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
     if s.program.passage.rapids.is_empty() && s.job.rapids.is_empty() && !s.job.changed() {
         return;
     }
+    compensated(s, line);
     moved_with(s, line);
     goes_home(s, line);
     if s.machine != Machine::Mill {
@@ -366,6 +390,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
 
 /// Compares the path from the last cut to the end of the program.
 pub(super) fn end(s: &mut Sides<'_>) {
+    compensated(s, 0);
     moved_with(s, 0);
     goes_home(s, 0);
     if s.machine != Machine::Mill {

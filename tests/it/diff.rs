@@ -242,6 +242,31 @@ fn motions_differ_in_the_zero_of_the_program() {
     assert_eq!(found, "a cut goes to X10 Y0 Z-1 A30, but to X10 Y0 Z-1 A0 in the old program");
 }
 
+/// A program may set a work offset for the program after it. The offsets that both programs leave are compared.
+#[test]
+fn motions_differ_in_the_offsets_that_stay_set() {
+    let part = |end: &str| {
+        format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. S500 M3\nG43 H1 Z10.\nG1 Z-1. F100.\nG0 Z50.\n{end}\nM30\n")
+    };
+    let sets = |name: &str, new: &str, old: &str| {
+        Some(format!("the program sets {name} to {new}, but to {old} in the old program"))
+    };
+    let only = Some("the programs set G55 for other axes, or only one program sets it".to_owned());
+    let zero = Some("the zero of the program is shifted to X6 Y0 Z0, but to X5 Y0 Z0 in the old program".to_owned());
+    for (old, new, expected) in [
+        ("G10 L2 P2 X5.", "G10 L2 P2 X5.", None),
+        ("G10 L2 P2 X25.4", "G20\nG10 L2 P2 X1.", None),
+        ("G10 L2 P2 X5.", "G10 L2 P2 X6.", sets("G55", "X6 Y0 Z0", "X5 Y0 Z0")),
+        ("G10 L20 P2 X5.", "G10 L20 P2 X6.", sets("G54.1 P2", "X6 Y0 Z0", "X5 Y0 Z0")),
+        ("G10 L2 P0 Z5.", "G10 L2 P0 Z5.", None),
+        ("G10 L2 P2 X0.", "", only.clone()),
+        ("G10 L2 P2 X5.", "G10 L2 P3 X5.", only),
+        ("G10 L2 P1 X5.", "G10 L2 P1 X6.", zero),
+    ] {
+        assert_eq!(difference("fanuc", [old, new].map(part)), expected, "{old} / {new}");
+    }
+}
+
 /// The same numbers of a rapid are another position of the machine with another tool length, work offset or zero.
 #[test]
 fn motions_differ_in_the_frames_of_rapids() {

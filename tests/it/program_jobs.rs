@@ -333,6 +333,34 @@ fn pecks_and_taps_are_those_of_the_job() {
     assert!(error.to_string().contains("CYCLE84 with the spindle angle 90 before the thread"), "{error}");
 }
 
+/// Compensation that is on only during rapids moves the tool, too. A program has the compensation of its job there.
+#[test]
+fn the_compensation_of_rapids_is_that_of_the_job() {
+    let program = |on: &str| {
+        let off = if on.is_empty() { "" } else { "G40 " };
+        format!(
+            "G90 G21 G17 G94 G54\nT1 M6\nG0 X0 Y0 S500 M3\nG43 H1 Z2.\nG1 Z-1. F100.\nG0 Z2.\n{on}X30. Y20.\nX50.\n\
+             {off}X60. Y0.\nG1 Z-1.\nG0 Z50.\nM30\n"
+        )
+    };
+    let sides = ["", "G41 D1 ", "G42 D1 ", "G41 D2 "];
+    let texts = ["off", "left D1", "right D1", "left D2"];
+    for (job, wanted) in sides.iter().zip(texts) {
+        for (new, is) in sides.iter().zip(texts) {
+            let verdict = verdict_of("fanuc", Job::nc(&program(job)), &program(new)).unwrap();
+            let expected = match job == new {
+                true => "identical".to_owned(),
+                false => {
+                    format!(
+                        "different: during the rapids here, the cutter compensation is {is}, but {wanted} in the job"
+                    )
+                }
+            };
+            assert_eq!(verdict.to_string(), expected, "{job} {new}");
+        }
+    }
+}
+
 /// A program may begin with a cut, or may cut directly from the machine's Z0. Programs from Fusion's free licence do
 /// so. The caller gives the start position.
 #[test]

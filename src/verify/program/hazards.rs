@@ -6,6 +6,7 @@ use crate::control::{Rules, ToolLength};
 use crate::diag::Code;
 use crate::nc::{Action, Compensation, Item, Rotation};
 use crate::verify::finding::Finding;
+use crate::verify::passage::Compensated;
 
 impl Program<'_> {
     /// Reports a move in a frame that G92 set while the position was known only at the machine.
@@ -63,6 +64,7 @@ impl Program<'_> {
             self.hazard(Code::PV018, line, message, "print one D for each contour");
         }
         (self.state.side, self.state.diameter) = (side, register);
+        self.passage.side = on.map(|on| Compensated { side: on.side, register });
     }
 
     /// Checks the end of the program.

@@ -58,7 +58,7 @@ impl Program<'_> {
             self.passage.reaches_machine(placed, point, &to, length);
         }
         let kept = self.scale.axes(kept);
-        self.passage.rapids.push(Rapid { to, unknown, kept, spin: Some(self.spin) });
+        self.passage.rapid(Rapid { to, unknown, kept, spin: Some(self.spin) });
     }
 
     /// Handles a straight cut. `lead`: feed per revolution, if the control synchronises the feed with the spindle.

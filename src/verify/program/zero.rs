@@ -5,20 +5,8 @@ use std::rc::Rc;
 use super::{Program, State};
 use crate::diag::Code;
 use crate::nc::Action;
-use crate::verify::cut::{DEPTH, Place};
-use crate::verify::measured::{Across, Frames, Level};
-
-/// The zero of a program. A work offset that the program does not set is at the machine's zero.
-pub(in crate::verify) struct Zero {
-    /// Machine position of the zero.
-    pub at: Place,
-    /// Rotation about the zero, in degrees.
-    pub angle: f64,
-    /// As bits, the axes for which the program has set the work offset to a machine position.
-    pub set: u8,
-    /// As bits, the axes that were shifted from an unknown machine position.
-    pub unknown: u8,
-}
+use crate::verify::cut::DEPTH;
+use crate::verify::measured::{Across, Frames, Level, Zero};
 
 impl Program<'_> {
     /// Runs a block that moves the zero, or that sets tool data.
@@ -59,6 +47,12 @@ impl Program<'_> {
             across: Across { work, zero: at, angle, side: side.flatten(), diameter },
             level: Level { tool, work, length, zero: height },
         }
+    }
+
+    /// All work offsets by number: 0 shifts all other offsets, 1 is G54, 10 is the first additional offset.
+    pub fn offsets(&self) -> impl Iterator<Item = Zero> {
+        let offsets = self.simulator.state().offsets();
+        offsets.map(|(at, angle, set)| Zero { at: self.scale.place(&at), angle, set, unknown: 0 })
     }
 
     /// The active zero.

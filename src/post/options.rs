@@ -151,8 +151,10 @@ fn variable(name: &str) -> Result<VarId, String> {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Proof {
-    /// The control whose rules apply. `None`: the control that the form names, or otherwise Fanuc.
+    /// The control whose rules apply. `None`: the control that the form names, or otherwise `default_control`.
     pub control: Option<&'static Control>,
+    /// The control if neither `control` nor the form names one. Default: Fanuc, and a program of a form is then not proven.
+    pub default_control: Option<&'static Control>,
     /// Whether to skip blocks that begin with a slash.
     pub block_delete: bool,
     /// The retract distance of G73, and the distance above the last depth in G83, in the program's units. Default: the values

@@ -223,7 +223,7 @@ impl Proof {
         let whole_feeds = form.is_some_and(implied);
         let form = form.map(|form| &form.settings);
         let of_form = form.and_then(|form| form.control);
-        let control = self.control.or(of_form).unwrap_or_else(Control::usual);
+        let control = self.control.or(of_form).or(self.default_control).unwrap_or_else(Control::usual);
         let lathe = form.filter(|form| form.machine == crate::lang::Machine::Lathe);
         let control = match form.map(|form| form.machine) {
             Some(crate::lang::Machine::Lathe) => control.of_lathe(),
@@ -238,7 +238,7 @@ impl Proof {
             unpointed: self.unpointed,
             whole_feeds,
             centers_absolute: form.is_some_and(|form| !form.centre_incremental),
-            assumed: self.control.is_none() && form.is_none(),
+            assumed: self.control.or(self.default_control).is_none() && form.is_none(),
             ..RunSettings::new(control)
         }
     }
@@ -272,7 +272,8 @@ impl Plan {
                 },
             ),
             in_units_of_job: options.units.is_none(),
-            assumed: proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none()),
+            assumed: proof.control.or(proof.default_control).is_none()
+                && form.is_some_and(|form| form.settings.control.is_none()),
         }
     }
 }

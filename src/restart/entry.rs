@@ -131,6 +131,8 @@ fn search(text: &[u8], settings: RunSettings, asked: &Asked, past_head: bool) ->
     search.finish()
 }
 
+/// Maximum number of lines in a note.
+const MOST_LINES: usize = 10;
 /// Maximum number of tools in a message.
 const MOST_TOOLS: usize = 10;
 
@@ -295,7 +297,7 @@ impl<'t> Search<'t> {
             Target::Operation(name) => items.iter().any(|item| match item.action {
                 Action::Comment(start, end) => {
                     let text = run.text().get(start..end).unwrap_or_default();
-                    text_of(text).to_lowercase().contains(&name.to_lowercase())
+                    has_text(text, name)
                 }
                 _ => false,
             }),
@@ -414,6 +416,36 @@ impl<'t> Search<'t> {
         codes.truncate(self.kept);
         Ok(Found { entry, asked, head: self.head.unwrap_or(0), codes })
     }
+}
+
+/// A note about later lines with the same block number, or with the same text in a comment. `None`: there are none.
+pub fn note_of_others(text: &[u8], target: &Target, asked: u64) -> Option<String> {
+    let what = match target {
+        Target::Block(number) => format!("N{number}"),
+        Target::Operation(name) => format!("`{}`", escaped(name)),
+        Target::Tool(_) | Target::Line(_) => return None,
+    };
+    let has_it = |line: &[u8]| match target {
+        Target::Block(number) => block_number(line) == Some(*number),
+        Target::Operation(name) => tokens(line).any(|token| {
+            matches!(token.kind, Kind::Comment | Kind::Remark) && has_text(&line[token.start..token.end], name)
+        }),
+        Target::Tool(_) | Target::Line(_) => false,
+    };
+    let lines = text.split(|byte| *byte == b'\n').zip(1u64..).skip_while(|(_, line)| *line <= asked);
+    let others: Vec<String> = lines.filter(|(line, _)| has_it(line)).map(|(_, line)| line.to_string()).collect();
+    let (last, first) = others.split_last()?;
+    let lines = match first {
+        [] => format!("line {last}"),
+        [.., _] if first.len() < MOST_LINES => format!("lines {} and {last}", first.join(", ")),
+        _ => format!("lines {} and {} more", first[..MOST_LINES].join(", "), others.len() - MOST_LINES),
+    };
+    Some(format!("{what} of line {asked} is also in {lines}: to begin there, give --line"))
+}
+
+/// Whether a comment contains a text, in small or capital letters.
+fn has_text(comment: &[u8], text: &str) -> bool {
+    text_of(comment).to_lowercase().contains(&text.to_lowercase())
 }
 
 /// The N number of a block.

@@ -90,7 +90,8 @@ pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Ask
     let settings = RunSettings { places_unknown: true, ..settings };
     let found = entry::find(&text, settings, asked)?;
     let made = |way: Way| -> Result<Restarted, Refused> {
-        let (new, head_lines, notes) = blocks::program(&text, settings.control, &found, asked, way)?;
+        let (new, head_lines, mut notes) = blocks::program(&text, settings.control, &found, asked, way)?;
+        notes.extend(entry::note_of_others(&text, &asked.target, found.asked));
         let moves = follow::same(&text, &new, settings, &found, (head_lines, way.across))?;
         Ok(Restarted { text: new, line: found.entry.line, asked: found.asked, notes, moves })
     };

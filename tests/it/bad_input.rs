@@ -253,6 +253,19 @@ fn jobs() {
         ),
         ("a cut to no position", with("{\"line\":[]}"), 1, vec!["PJ003", "`line` gives no axis", "path[1]"]),
         ("a rapid to no position", with("{\"rapid\":[null,null]}"), 1, vec!["PJ003", "`rapid` gives no axis"]),
+        (
+            "an infeed to no position",
+            with("{\"infeed\":[null,null],\"side\":\"left\"}"),
+            1,
+            vec!["PJ003", "`infeed` gives no axis"],
+        ),
+        ("an outfeed to no position", with("{\"outfeed\":[]}"), 1, vec!["PJ003", "`outfeed` gives no axis"]),
+        (
+            "a hole at no position",
+            with("{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"feed\":5,\"points\":[[1,1,0],[null]]}}"),
+            1,
+            vec!["PJ003", "a point gives no axis"],
+        ),
         ("empty item", with("{}"), 1, vec!["PJ004", "is empty"]),
         ("two things in an item", with("{\"line\":[1,2],\"rapid\":[1,2]}"), 1, vec!["PJ005", "more than one action"]),
         (

@@ -131,11 +131,21 @@ fn configuration_gives_the_form_the_control_and_the_limits() {
     folder.write("postform.toml", "form = \"forms/own.pf\"\ncontrol = \"linuxcnc\"\nlimits = \"extended\"\n");
     folder.write("forms/own.pf", mill("", "BeginRow\nG1 G2 G3 G4 G5 G6 G7 G8 G9 G10 G11 G12 G13 G14 G15 G16\nEnd"));
     folder.write("jobs/job.json", support::job("{\"line\":[1,1,0]}"));
-    let output = folder.run(&["render", "jobs/job.json"]);
+    let output = folder.run(&["render", "jobs/job.json", "--no-verify"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(out(&output).contains("G1 X1. Y1. Z0 F10.") && err(&output).contains("PF601"), "{}", err(&output));
     // an option on the command line overrides postform.toml
     assert_eq!(folder.run(&["render", "jobs/job.json", "--limits", "classic"]).status.code(), Some(1));
+    // the form has no `Control`, so each command verifies its program by the rules of the control in postform.toml
+    folder.write("cases/one/job.json", support::job("{\"line\":[1,1,0]}"));
+    folder.write("cases/postform.toml", "control = \"linuxcnc\"\n[test]\nforms = [\"../forms/own.pf\"]\n");
+    folder.write("cases/one/expected.own.nc", "G0\n");
+    for arguments in [&["render", "jobs/job.json"][..], &["verify", "jobs/job.json"], &["test", "cases"]] {
+        let output = folder.run(arguments);
+        let said = out(&output) + &err(&output);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {said}");
+        assert!(said.contains("PV014") && !said.contains("has no `Control`"), "{arguments:?}: {said}");
+    }
     // LinuxCNC accepts numbers without a decimal point, Fanuc does not
     folder.write("program.nc", "G21\nG0 X1\nM2\n");
     assert_eq!(folder.run(&["simulate", "program.nc"]).status.code(), Some(0));

@@ -237,7 +237,7 @@ fn verify_reads_standard_input() {
     assert!(text(&output.stdout).starts_with("equivalent: "), "{}", text(&output.stdout));
     let program = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
     let output = fed(&["verify", "samples/bracket/job.json", "--nc", "-"], &program);
-    assert!(text(&output.stdout).starts_with("equivalent: standard input"), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).starts_with("identical: standard input"), "{}", text(&output.stdout));
     // for a program that calls its own subprograms, postform prints the program again into a file
     let job_of_subs = fs::read(root().join("samples/pattern/job.json")).unwrap();
     let output = fed(&["verify", "-", "--form", "postforms/fadal-subs.pf"], &job_of_subs);

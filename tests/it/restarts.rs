@@ -236,6 +236,26 @@ fn an_oriented_spindle_and_a_pallet_are_not_forgotten() {
     assert!(said.contains("M60 of line 8 is not run again"), "{said}");
 }
 
+/// The program begins at the first of several equal texts or block numbers. The lines of the others are listed.
+#[test]
+fn equal_texts_and_block_numbers_are_listed() {
+    let folder = Folder::new("restart-equal");
+    let holes = |tool: u8| {
+        format!("(HOLES)\nN10 T{tool} M6\nG0 G54 X{tool}. Y0. S500 M3\nG43 H{tool} Z50.\nG1 Z-1. F100.\nG0 Z50.\n")
+    };
+    folder.write("a.nc", format!("G21 G90 G94\n(FACE)\n{}{}{}M30\n", holes(1), holes(2), holes(3)));
+    for (where_, others) in [
+        (["--operation", "holes"], Some("`holes` of line 9 is also in line 15: to begin there, give --line")),
+        (["--at", "N10"], Some("N10 of line 4 is also in lines 10 and 16: to begin there, give --line")),
+        (["--line", "9"], None),
+        (["--tool", "2"], None),
+    ] {
+        let said = restarted(&folder, "fanuc", &where_).unwrap().1;
+        assert_eq!(said.contains("is also in"), others.is_some(), "{where_:?}: {said}");
+        assert!(others.is_none_or(|others| said.contains(others)), "{where_:?}: {said}");
+    }
+}
+
 /// These do not prevent a restart: subprograms, a T word long before its M6, and a list of operations in the header.
 #[test]
 fn subprograms_and_tools_named_before_are_no_obstacle() {

@@ -100,7 +100,7 @@ fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File
         Some(units) => units.units(),
         None => units_of(&mut job, &args.file)?,
     };
-    let proof: Proof = args.control.proof(None);
+    let proof: Proof = args.control.proof(None, prepared.config.control);
     let settings = prepared.post.run_settings(&proof, units);
     drawn(program, settings, Path::new("the program")).map(Some)
 }

@@ -56,7 +56,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
     let Ok((mut program, _)) = rendered(&mut job, &[&args.job], &prepared, false, reporter)? else {
         return Ok(Ending::Findings);
     };
-    let proof = args.control.proof(None);
+    let proof = args.control.proof(None, prepared.config.control);
     let sides = Sides { jobs: &[&args.job], program: "the program", files: post.files() };
     let fail = |error: std::io::Error| io_message("read", Path::new("the program"), &error);
     let copy = program.try_clone().map_err(fail)?;

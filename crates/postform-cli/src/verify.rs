@@ -112,7 +112,7 @@ fn tried(
     let by_name = || control_of_name(args.nc.as_deref()?);
     let by_config = of_machine.or(config.control).or_else(by_name).filter(|_| prepared.is_none());
     let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
-    let mut proof = control.proof(args.tolerance);
+    let mut proof = control.proof(args.tolerance, config.control);
     proof.units = args.options.units.map(UnitsArg::units);
     // the job of a printed program may be read twice: for the survey, or to print the program again into a file
     let twice = args.nc.is_none() || args.stock.is_some();

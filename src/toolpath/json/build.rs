@@ -172,9 +172,9 @@ impl<'s> Builder<'s> {
             let arc = arc_of(arc)?;
             self.push(Event::Arc { arc: &arc, feed })
         } else if let (Some(to), Some(side)) = (item.infeed, item.side) {
-            self.push(Event::Infeed { infeed: &Infeed { to: to.0, side: side.0, rapid: false }, feed })
+            self.push(Event::Infeed { infeed: &Infeed { to: moving("infeed", to)?, side: side.0, rapid: false }, feed })
         } else if let Some(to) = item.outfeed {
-            self.push(Event::Outfeed { to: to.0, feed, rapid: false })
+            self.push(Event::Outfeed { to: moving("outfeed", to)?, feed, rapid: false })
         } else if let Some(thread) = &item.thread {
             let thread = thread_of(thread)?;
             self.push(Event::Thread(&thread))
@@ -273,6 +273,10 @@ impl<'s> Builder<'s> {
             return fault(Code::PJ011, "a point outside a cycle", "begin the cycle first, as {\"cycle\": {...}}");
         }
         self.place.point += 1;
+        if hole.at.given == 0 {
+            let help = "remove the point, or write the position of its hole, as [1, 1, 0]";
+            return fault(Code::PJ003, "a point gives no axis, so its hole has no position", help);
+        }
         self.push(Event::Hole(hole))
     }
 

@@ -83,10 +83,10 @@ impl NoPoint {
 }
 
 impl ControlArgs {
-    /// The settings for a proof.
-    pub fn proof(&self, tolerance: Option<f64>) -> Proof {
+    /// The settings for a proof. `default`: the control if neither the user nor the form names one.
+    pub fn proof(&self, tolerance: Option<f64>, default: Option<&'static Control>) -> Proof {
         let mut proof = Proof::default();
-        proof.control = self.control;
+        (proof.control, proof.default_control) = (self.control, default);
         proof.block_delete = self.block_delete;
         proof.back_off = self.back_off;
         proof.unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);

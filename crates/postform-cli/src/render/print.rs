@@ -70,7 +70,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
     options.program = task.number.or(options.program);
     options.trace = args.trace.is_some();
     options.one_pass = args.stream;
-    let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None));
+    let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None, prepared.config.control));
     let progress = Progress::new();
     let kept = |error: &io::Error| io_message("write", Path::new("the program"), error);
     let mut program = machine.as_ref().map(|_| Spool::new()).transpose().map_err(|error| kept(&error))?;
@@ -124,7 +124,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
     }
     if let (Some(machine), Some(program)) = (machine, program) {
         let program = program.into_file().map_err(|error| kept(&error))?;
-        let (post, proof) = (&prepared.post, args.control.proof(None));
+        let (post, proof) = (&prepared.post, args.control.proof(None, prepared.config.control));
         let made = (&mut job, &prepared.options);
         let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (program, task.called))?;
         let stops = fitted.has_errors() && !args.no_verify;

@@ -190,7 +190,7 @@ impl Ready {
         options.shop_properties = config.shop_properties();
         options.rates = machine.as_ref().and_then(|machine| machine.rates().ok());
         let mut proof = Proof::default();
-        proof.control = post.control().is_none().then_some(config.control).flatten();
+        proof.default_control = config.control;
         let require_proof = config.require_proof;
         Ok(Ready { post, options, proof, machine, require_proof, checked: file.analyse(&Changed::new()) })
     }

@@ -125,7 +125,7 @@ impl Session {
         if options.clock.is_none() {
             options.clock = Some(clock::now()?);
         }
-        let proof = args.control.proof(None);
+        let proof = args.control.proof(None, config.control);
         Ok(Session {
             form: args.form,
             jobs,

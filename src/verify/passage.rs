@@ -1,6 +1,8 @@
 //! A passage: everything between two cuts, such as rapids, changes of tool and work offset, stops and dwells. The job
 //! has a passage between its cuts, and the program has a passage between its cuts.
 
+use std::ops::{Deref, DerefMut};
+
 use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
 use super::measured::Measured;
 use super::wire_codes::Coded;
@@ -109,12 +111,26 @@ pub(super) struct Passage {
     pub rapids: Vec<Rapid>,
     /// The cutter compensation that is on now.
     pub side: Option<Compensated>,
+    /// The parts of the path (legs), one for each frame. The list has at least one leg.
+    legs: Vec<Leg>,
+    /// Whether the job's path moves away from the axis of its hole.
+    pub aside: bool,
+    /// Whether the job's path moved away from the axis of its hole before the last change of the frame.
+    pub left_aside: bool,
+    /// Everything except the path.
+    beside: Beside,
+    /// Whether `beside` may have been changed since the passage began.
+    touched: bool,
+}
+
+/// Everything between two cuts except the path. Most passages contain nothing of it: [`Passage`] gives access to the
+/// fields, and records each access that may change them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Beside {
     /// The compensations with which the rapids were made, in order.
     pub compensated: Vec<Compensated>,
     /// The frames of the program's rapids.
     pub measured: Measured,
-    /// The parts of the path (legs), one for each frame. The list has at least one leg.
-    legs: Vec<Leg>,
     pub stops: Vec<Mark<StopKind>>,
     /// Dwells in seconds. NaN means a dwell of any length.
     pub waits: Vec<Mark<f64>>,
@@ -140,12 +156,45 @@ pub(super) struct Passage {
     pub homes: u8,
     /// For X, Y, Z, A, B and C: these positions in their order.
     pub machine: [Vec<AtMachine>; 6],
-    /// Whether the job's path moves away from the axis of its hole.
-    pub aside: bool,
-    /// Whether the job's path moved away from the axis of its hole before the last change of the frame.
-    pub left_aside: bool,
     /// Targets of incremental moves from an unknown machine position, each with its line.
     pub astray: Vec<(u64, Place)>,
+}
+
+impl Beside {
+    /// Empties everything, and keeps the memory.
+    fn clear(&mut self) {
+        self.compensated.clear();
+        self.measured.clear();
+        self.stops.clear();
+        self.waits.clear();
+        self.turns.clear();
+        (self.started, self.is_off, self.new_tool) = (false, false, false);
+        self.codes.clear();
+        self.words.clear();
+        self.tool_data.clear();
+        self.does.clear();
+        self.turrets.clear();
+        self.homes = 0;
+        self.machine.iter_mut().for_each(Vec::clear);
+        self.astray.clear();
+    }
+}
+
+impl Deref for Passage {
+    type Target = Beside;
+
+    #[inline]
+    fn deref(&self) -> &Beside {
+        &self.beside
+    }
+}
+
+impl DerefMut for Passage {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut Beside {
+        self.touched = true;
+        &mut self.beside
+    }
 }
 
 /// The message for a passage that is too long.
@@ -167,34 +216,19 @@ impl Passage {
             after_cut: false,
             rapids: Vec::new(),
             side: None,
-            compensated: Vec::new(),
-            measured: Measured::default(),
             legs: vec![Leg { frame, ..Leg::default() }],
-            stops: Vec::new(),
-            waits: Vec::new(),
-            turns: Vec::new(),
-            started: false,
-            is_off: false,
-            codes: Vec::new(),
-            words: Vec::new(),
-            tool_data: Vec::new(),
-            does: Vec::new(),
-            new_tool: false,
-            turrets: Vec::new(),
-            homes: 0,
-            machine: Default::default(),
             aside: false,
             left_aside: false,
-            astray: Vec::new(),
+            beside: Beside::default(),
+            touched: false,
         }
     }
 
     /// Begins the next passage at the end of a cut.
+    #[inline]
     pub fn begin(&mut self, start: Rapid) {
         (self.start, self.after_cut) = (Some(start), true);
         self.rapids.clear();
-        self.compensated.clear();
-        self.measured.clear();
         if self.legs.len() > 1 {
             self.legs.swap_remove(0);
             self.legs.truncate(1);
@@ -203,19 +237,10 @@ impl Passage {
             (leg.from, leg.home) = (0, false);
             leg.lengths.clear();
         }
-        self.stops.clear();
-        self.waits.clear();
-        self.turns.clear();
-        (self.started, self.is_off) = (false, false);
-        self.codes.clear();
-        self.words.clear();
-        self.tool_data.clear();
-        self.does.clear();
-        self.astray.clear();
-        self.turrets.clear();
-        self.homes = 0;
-        self.machine.iter_mut().for_each(Vec::clear);
-        (self.new_tool, self.aside, self.left_aside) = (false, false, false);
+        (self.aside, self.left_aside) = (false, false);
+        if std::mem::take(&mut self.touched) {
+            self.beside.clear();
+        }
     }
 
     /// Adds a rapid, with the compensation that is on.
@@ -328,9 +353,13 @@ impl Passage {
     /// Whether the passage is too long to be kept in memory or compared.
     #[inline]
     pub fn is_too_long(&self) -> bool {
+        self.rapids.len() > MOST || self.legs.len() > MOST_LEGS || self.touched && self.has_too_much_beside()
+    }
+
+    fn has_too_much_beside(&self) -> bool {
         let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
         let codes = self.codes.len() + self.words.len() + self.tool_data.len();
-        self.rapids.len() + codes + self.astray.len() > MOST || marks > MOST_MARKS || self.legs.len() > MOST_LEGS
+        self.rapids.len() + codes + self.astray.len() > MOST || marks > MOST_MARKS
     }
 
     /// Whether the frame was changed.
@@ -451,13 +480,16 @@ impl Passage {
     }
 
     /// Whether the next cut follows directly on the last cut, without a rapid or another action between the two cuts.
+    #[inline]
     pub fn is_plain(&self) -> bool {
         self.rapids.is_empty() && self.only_moves()
     }
 
     /// Whether the passage contains only rapids, all in one frame.
+    #[inline]
     pub fn only_moves(&self) -> bool {
-        self.legs.len() == 1 && self.stops.is_empty() && self.waits.is_empty() && self.does.is_empty()
+        let only_path = !self.touched || self.stops.is_empty() && self.waits.is_empty() && self.does.is_empty();
+        self.legs.len() == 1 && only_path
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::{Read, Seek};
 use super::cut::{ACROSS, Cut, DEPTH, Rapid, What, is_straight, over, same, same_ends, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
-use super::intent::{Done, Expected, Intent, Threaded};
+use super::intent::{Done, Expected, Intent, Straight, Threaded};
 use super::passage::{Compensated, Frame, Passage, TOO_LONG};
 use super::program::Program;
 use super::report::{Counts, Report};
@@ -196,14 +196,16 @@ impl Intent for Sides<'_> {
         Ok(())
     }
 
+    #[inline]
+    fn goes_on(&mut self, cut: &Straight<'_>) -> bool {
+        fast_path::goes_on(self, cut)
+    }
+
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done {
         self.threaded = None;
         match hole {
             Some(_) => self.hole.cut = true,
             None => self.hole.highest = None,
-        }
-        if hole.is_none() && fast_path::goes_on(self, cut) {
-            return Ok(());
         }
         if let Some(hole) = hole.filter(|hole| !hole.pecks)
             && fast_path::drills(self, cut, hole)?

@@ -3,8 +3,8 @@
 //! compared without copies. The general comparison handles all other cuts; it would have the same result for the cuts
 //! of this module.
 
-use super::cut::{ALL, Cut, What, same, same_ends, turn_as_far};
-use super::intent::{Done, Expected};
+use super::cut::{ALL, Cut, Place, What, same, same_ends, turn_as_far};
+use super::intent::{Done, Expected, Straight};
 use super::modal::{has_feed, is_feed};
 use super::rapids::{moves_as_before, same_rapids};
 use super::sides::Sides;
@@ -14,30 +14,38 @@ use crate::lang::Machine;
 /// rounding of its positions.
 const LONG: f64 = 4.0;
 
+/// Whether a straight cut is too long to vanish in the rounding of its positions.
+#[inline]
+fn is_long(from: &Place, to: &Place, tolerance: f64) -> bool {
+    (0..3).any(|axis| (to[axis] - from[axis]).abs() > LONG * tolerance)
+}
+
 /// Whether the program's next cut equals the job's cut, and both cuts directly follow another cut. If `true`, the cut
 /// is counted as compared.
-pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> bool {
-    let What::Line { to } = &cut.what else { return false };
+#[inline]
+pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Straight<'_>) -> bool {
+    let Straight { from: start, to, .. } = *cut;
     let tolerance = s.limits.tolerance;
-    let is_long = (0..3).any(|axis| (to[axis] - cut.from[axis]).abs() > LONG * tolerance);
-    if !is_long || !s.job.is_plain() || s.job.new_tool || cut.unknown != 0 || cut.lead.is_some() {
+    if !is_long(start, to, tolerance) || !s.job.is_plain() || s.job.new_tool {
         return false;
     }
     let Some((from, mode, state)) = s.program.before_plain() else { return false };
-    let agree = s.agreed.as_ref().is_some_and(|[wanted, is]| *wanted == cut.state && is == state);
-    if !agree || mode != cut.mode || !same(&cut.from, from, ALL, tolerance) {
+    let agree = s.agreed.as_ref().is_some_and(|[wanted, is]| wanted == cut.state && is == state);
+    if !agree || mode != cut.mode || !same(start, from, ALL, tolerance) {
         return false;
     }
     let from = *from;
     let Some(found) = s.program.next_plain() else { return false };
     let is_usual = cut.feed.is_none_or(|feed| is_feed(feed, found.feed, false))
         && same(to, &found.to, ALL, tolerance)
-        && turn_as_far([&cut.from, to], [&from, &found.to]);
+        && turn_as_far([start, to], [&from, &found.to]);
     if is_usual {
         (s.slipped, s.slips) = (None, 0);
         s.report.counts.cuts += 1;
         s.program.take_plain(&found);
-        s.leave(cut, None);
+        s.threaded = None;
+        (s.hole.highest, s.hole.inside) = (None, None);
+        s.leave_at(*to);
     }
     is_usual
 }
@@ -52,10 +60,9 @@ pub(super) fn drills(s: &mut Sides<'_>, cut: &Cut, hole: &Expected) -> Done<bool
     let tolerance = s.limits.tolerance;
     let Some(found) = s.program.cut() else { return Ok(false) };
     let (What::Line { to }, What::Line { .. }) = (&cut.what, &found.what) else { return Ok(false) };
-    let is_long = (0..3).any(|axis| (to[axis] - cut.from[axis]).abs() > LONG * tolerance);
     let both_plain = [&s.job, &s.program.passage].into_iter().all(|passage| passage.only_moves() && !passage.new_tool);
     let agree = s.agreed.as_ref().is_some_and(|[wanted, is]| *wanted == cut.state && *is == found.state);
-    let is_usual = is_long
+    let is_usual = is_long(&cut.from, to, tolerance)
         && s.machine == Machine::Mill
         && both_plain
         && agree

@@ -4,7 +4,7 @@ use super::cooled;
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::form_values::by;
-use super::intent::{Done, Intent, unproven};
+use super::intent::{Done, Intent, Straight, unproven};
 use super::passage::{Compensated, Frame};
 use super::subprograms::Subprograms;
 use super::tables::Unmodelled;
@@ -102,8 +102,7 @@ impl Job {
             Event::Line { to: target, feed } => {
                 self.feed = feed.or(self.feed);
                 let target = self.target(&target);
-                let what = What::Line { to: self.whole(&target) };
-                self.cut_to(target, what, to)
+                self.line_to(target, to)
             }
             Event::Arc { arc, feed } => {
                 self.feed = feed.or(self.feed);
@@ -377,6 +376,17 @@ impl Job {
             by_cycle: false,
             line: 0,
         }
+    }
+
+    #[inline]
+    fn line_to(&mut self, target: Axes, to: &mut impl Intent) -> Done {
+        let [start, end] = [&self.at, &target].map(|at| self.whole(at));
+        let line = Straight { from: &start, to: &end, feed: self.feed, mode: self.mode, state: &self.state };
+        if self.unknown() == 0 && to.goes_on(&line) {
+            self.at = target;
+            return Ok(());
+        }
+        self.cut_to(target, What::Line { to: end }, to)
     }
 
     fn cut_to(&mut self, target: Axes, what: What, to: &mut impl Intent) -> Done {

@@ -1,11 +1,11 @@
 //! The output of the job's side of the comparison: cuts, holes, threads and paths between cuts.
 
-use super::cut::{Cut, Place, Rapid};
+use super::cut::{Cut, Place, Rapid, Shared};
 use super::passage::{Compensated, Frame};
 use super::tables::Unmodelled;
 use super::wire_codes::Coded;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{self, StopKind, Units};
+use crate::toolpath::{self, FeedMode, StopKind, Units};
 
 /// Receives the job's motions in their order.
 pub(super) trait Intent {
@@ -16,6 +16,8 @@ pub(super) trait Intent {
     fn rapid(&mut self, rapid: Rapid) -> Done;
     /// Turns the cutter compensation on or off.
     fn compensation(&mut self, on: Option<Compensated>);
+    /// Compares a straight cut if it is a usual one. `false`: the cut must be passed to [`Intent::cut`].
+    fn goes_on(&mut self, cut: &Straight<'_>) -> bool;
     /// A cut.
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done;
     /// A move that turns compensation on or off. In the program this move may be a rapid or a feed move.
@@ -53,6 +55,15 @@ pub(super) trait Intent {
 
 /// Success, or the finding that ended the comparison.
 pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
+
+/// A straight cut of the job that is not part of a hole and begins at a known position.
+pub(super) struct Straight<'a> {
+    pub from: &'a Place,
+    pub to: &'a Place,
+    pub feed: Option<f64>,
+    pub mode: FeedMode,
+    pub state: &'a Shared,
+}
 
 /// The requirements of the job for a hole.
 #[derive(Clone, Copy, Debug)]

@@ -177,7 +177,13 @@ impl Sides<'_> {
     /// Ends the job's cut. The job's next path begins at the end of the cut.
     pub fn leave(&mut self, cut: &Cut, hole: Option<&Expected>) {
         self.hole.inside = hole.filter(|hole| !hole.custom).map(|hole| hole.plane);
-        self.job.begin(Rapid { to: cut.end(), unknown: 0, kept: 0, spin: None });
+        self.leave_at(cut.end());
+    }
+
+    /// Begins the job's next path at the end of a cut.
+    #[inline]
+    pub fn leave_at(&mut self, to: Place) {
+        self.job.begin(Rapid { to, unknown: 0, kept: 0, spin: None });
     }
 
     /// The frame of the program's last cut.

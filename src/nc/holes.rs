@@ -12,6 +12,9 @@ pub struct Holes {
     pub cycle: Motion,
     /// Values that are kept for the next hole.
     pub series: Series,
+    /// The number of holes that were made by the last blocks one after the other, each block with only a position in
+    /// the plane of the cycle. Counted by `next_hole.rs`.
+    pub alike: u8,
     /// The part of the block's cycle that has not been run yet.
     pub work: Option<Work>,
     /// The holes of the block that are not made yet. Each of these holes is made by a call of a cycle.

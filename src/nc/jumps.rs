@@ -58,6 +58,7 @@ impl Simulator<'_> {
 
     /// Runs a block with an O word.
     pub(super) fn follow(&mut self, flow: Flow) -> Done<Jump> {
+        self.state.holes.alike = 0;
         let Flow { label, step } = flow;
         let inner = self.frames.last().is_some_and(|frame| frame.label() == label);
         match step {

@@ -29,6 +29,7 @@ mod macros;
 mod modal;
 mod modes;
 mod motion;
+mod next_hole;
 mod offsets;
 mod out;
 mod pace;

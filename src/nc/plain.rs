@@ -6,7 +6,7 @@ use super::block::Block;
 use super::codes::{AXES, Group, bit, g_code, letters};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Control, Meaning, Row};
+use crate::control::{Control, Meaning, Row, Turns};
 use crate::number::short_decimal;
 use crate::toolpath::FeedMode;
 
@@ -14,10 +14,11 @@ use crate::toolpath::FeedMode;
 const WORDS: u32 = letters("XYZABCFN");
 
 impl Block {
-    /// Reads a line that has only axis words, a number, a feed and one G0 or G1, with short numbers. Returns `false` if
-    /// the line has anything else; the general reader must then read the line.
+    /// Reads the line at the beginning of a text, if the line has only axis words, a number, a feed and one G0 or G1,
+    /// with short numbers. Returns the length of the line. `None`: the line has anything else, or the text ends before
+    /// the line; the general reader must then read the line.
     #[inline]
-    pub(super) fn read_plain(&mut self, line: &[u8], control: &'static Control) -> bool {
+    pub(super) fn read_plain(&mut self, line: &[u8], control: &'static Control) -> Option<usize> {
         let (mut at, mut given, mut whole, mut code) = (0, 0, 0, None);
         loop {
             let letter = match line.get(at) {
@@ -27,31 +28,34 @@ impl Block {
                 }
                 Some(letter @ (b'X'..=b'Z' | b'A'..=b'C' | b'F' | b'N')) => *letter,
                 Some(b'\n') => break,
-                Some(b'\r') if line.get(at + 1) == Some(&b'\n') => break,
+                Some(b'\r') if line.get(at + 1) == Some(&b'\n') => {
+                    at += 1;
+                    break;
+                }
                 Some(b'G') if code.is_none() => {
                     // `G1`, `G01`
                     let leading = matches!(line.get(at + 1..at + 3), Some([b'0', b'0' | b'1']));
                     at += 1 + usize::from(leading);
                     let (Some(digit @ (b'0' | b'1')), Some(after)) = (line.get(at), line.get(at + 1)) else {
-                        return false;
+                        return None;
                     };
                     let row = g_code(control, u16::from(digit - b'0') * 10);
                     code = row.filter(|row| matches!(row.meaning, Meaning::Rapid | Meaning::Line));
                     if code.is_none() || after.is_ascii_digit() || *after == b'.' {
-                        return false;
+                        return None;
                     }
                     at += 1;
                     continue;
                 }
-                _ => return false,
+                _ => return None,
             };
             let negative = line.get(at + 1) == Some(&b'-');
             let start = at + 1 + usize::from(negative);
-            let Some(short) = short_decimal(line, start) else { return false };
+            let short = short_decimal(line, start)?;
             at = start + short.length;
             // a number that continues after a blank ends the loop in the next round, because a digit is not a letter
             if given & bit(letter) != 0 || negative && letter == b'F' {
-                return false;
+                return None;
             }
             given |= bit(letter);
             whole |= if short.point { 0 } else { bit(letter) };
@@ -59,13 +63,13 @@ impl Block {
             self.values[usize::from(letter - b'A')] = if negative { -value } else { value };
         }
         if given & AXES == 0 || given & !control.letters() != 0 {
-            return false;
+            return None;
         }
         if let Some(row) = code {
             (self.has_g, self.g[Group::Motion as usize]) = (true, Some(row));
         }
         (self.given, self.whole, self.is_empty, self.plain) = (given, whole, false, true);
-        true
+        Some(at + 1)
     }
 
     /// Whether the block that was just read has only axis words, a number, a feed, and the code of a motion.
@@ -97,7 +101,7 @@ impl State {
             && modes.feed_mode != FeedMode::InverseTime
             && self.holes.cycle.is_none()
             && self.turning.corner.is_none()
-            && !control.is_lathe()
+            && control.traits().turns == Turns::Tool
             && !control.traits().height_is_machine
             // the meaning of lengths without a decimal point depends on a setting
             && (block.whole & AXES == 0 || control.rules().is_nist())
@@ -111,7 +115,7 @@ impl State {
         self.drive.set_feed(feed);
         let mut to = self.place.position;
         let mut given = 0;
-        for (axis, letter) in control.axes().iter().enumerate() {
+        for (axis, letter) in b"XYZABC".iter().enumerate() {
             let is_given = block.given & bit(*letter) != 0;
             given |= u8::from(is_given) << axis;
             to[axis] = if is_given { block.values[usize::from(letter - b'A')] } else { to[axis] };

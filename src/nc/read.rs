@@ -19,7 +19,7 @@ impl Block {
     pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &RunSettings) -> Done {
         let control = settings.control;
         self.clear();
-        if self.read_plain(line, control) {
+        if self.read_plain(line, control).is_some() {
             return Ok(());
         }
         self.open_comments = control.traits().open_comments;

@@ -24,6 +24,7 @@ impl State {
     ///
     /// # Errors
     /// The control refuses the block.
+    #[inline]
     pub fn run(&mut self, block: &mut Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
         if self.control.rules() == Rules::Grbl {
             return self.grbl_block(block, &mut Out::new(items, line));
@@ -45,6 +46,7 @@ impl State {
     }
 
     fn run_codes(&mut self, block: &mut Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
+        let alike = std::mem::take(&mut self.holes.alike);
         if !self.control.is_linuxcnc() && block.whole & SCALED != 0 {
             self.unpointed(block)?;
         }
@@ -113,6 +115,7 @@ impl State {
                 self.make_pattern(&mut out)?;
             }
         }
+        self.holes.alike = if self.makes_hole_by_position(block) { alike.saturating_add(1) } else { 0 };
         self.finish(block, &mut out)
     }
 

@@ -64,11 +64,13 @@ pub struct Simulator<'a> {
     pub(super) state: State,
     pub(super) parameters: Parameters,
     pub(super) block: Block,
+    /// The block that [`Simulator::next_hole`] has read ahead.
+    pub(super) ahead: Block,
     pub(super) line: Vec<u8>,
     /// Position in the input after the current line.
     pub(super) at: Spot,
     /// Number of the line that was run last.
-    ran: u64,
+    pub(super) ran: u64,
     pub(super) frames: Vec<Frame>,
     /// Positions after the first line of each subprogram, by O number or name.
     pub(super) labels: HashMap<String, Spot>,
@@ -83,7 +85,7 @@ pub struct Simulator<'a> {
     pub(super) slash: Option<(u64, Vec<u8>)>,
     /// Whether the program has had a block with a slash.
     pub(super) has_slash: bool,
-    over: bool,
+    pub(super) over: bool,
     /// Whether the program ended with M99. The control would start the program again.
     pub(super) again: bool,
     pub(super) jumps: u64,
@@ -92,7 +94,7 @@ pub struct Simulator<'a> {
     /// Number of actions from subprograms, loops and long blocks.
     repeated: u64,
     /// Whether the current block has further actions.
-    unfinished: bool,
+    pub(super) unfinished: bool,
     pub(super) blocks: u64,
     /// Whether any block so far had words.
     words: bool,
@@ -124,6 +126,7 @@ impl<'a> Simulator<'a> {
             state: State::new(settings),
             parameters: Parameters::new(settings.control),
             block: Block::default(),
+            ahead: Block::default(),
             line: Vec::new(),
             at: Spot { byte: 0, line: 0 },
             ran: 0,

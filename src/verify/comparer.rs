@@ -272,7 +272,12 @@ impl Intent for Sides<'_> {
         self.job.stops.push(mark);
     }
 
+    fn next_hole(&mut self, at: [f64; 2]) -> bool {
+        fast_path::drills_again(self, at)
+    }
+
     fn hole_begins(&mut self, hole: &Expected) {
+        self.hole.is_usual = false;
         self.hole.over = Some(*hole);
         let here = hole.at[DEPTH].max(hole.plane);
         self.hole.highest = Some(self.hole.highest.map_or(here, |highest| highest.max(here)));

@@ -3,7 +3,7 @@
 //! compared without copies. The general comparison handles all other cuts; it would have the same result for the cuts
 //! of this module.
 
-use super::cut::{ALL, Cut, Place, What, same, same_ends, turn_as_far};
+use super::cut::{ALL, Cut, Place, Rapid, What, same, same_ends, turn_as_far};
 use super::intent::{Done, Expected, Straight};
 use super::modal::{has_feed, is_feed};
 use super::rapids::{moves_as_before, same_rapids};
@@ -75,10 +75,36 @@ pub(super) fn drills(s: &mut Sides<'_>, cut: &Cut, hole: &Expected) -> Done<bool
         && moves_as_before(s)
         && same_rapids(s);
     if is_usual {
+        let starts = [s.job.start, s.program.passage.start].map(|start| start.map(|start| start.to));
+        let goes_across = |start: Option<Place>, cut: &Cut| start.is_some_and(|start| start[..2] != cut.from[..2]);
+        s.hole.is_usual = goes_across(starts[0], cut) && goes_across(starts[1], found);
         s.before = found.state.clone();
         (s.slipped, s.slips) = (None, 0);
         s.program.take();
+        s.program.expects_hole();
         s.leave(cut, Some(hole));
     }
     Ok(is_usual)
+}
+
+/// Whether the program makes the job's next hole, which differs from the last two holes only in its position, and makes
+/// it like its own last two holes. If `true`, the hole needs no further comparison: with the same shift on both sides,
+/// the comparison of the last hole holds for this one.
+pub(super) fn drills_again(s: &mut Sides<'_>, at: [f64; 2]) -> bool {
+    let is_usual = s.hole.is_usual && s.job.only_lifts() && !s.job.new_tool;
+    let Some(Rapid { to: mut end, .. }) = s.job.start.filter(|_| is_usual) else { return false };
+    // without a move to the hole, the job would have other rapids
+    if end[..2] == at {
+        return false;
+    }
+    (end[0], end[1]) = (at[0], at[1]);
+    if !s.program.next_hole(&end, s.limits.tolerance) {
+        return false;
+    }
+    s.job.shift(at);
+    if let Some(last) = &mut s.hole.last {
+        (last.at[0], last.at[1]) = (at[0], at[1]);
+    }
+    s.report.counts.holes += 1;
+    true
 }

@@ -1,7 +1,7 @@
 //! The job's side of the comparison: converts the events of the job to the cuts and paths that the program must make.
 
 use super::cooled;
-use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
+use super::cut::{Cut, DEPTH, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::form_values::by;
 use super::intent::{Done, Intent, Straight, unproven};
@@ -14,7 +14,7 @@ use crate::diag::Diag;
 use crate::lang::{Beam, Coolant, Machine};
 use crate::nc::{Kind, Rotation, Turn, rotation_of, tokens};
 use crate::toolpath::{
-    Arc, Axes, CycleSpec, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start,
+    Arc, Axes, CycleSpec, Direction, EdmAction, Event, FeedMode, Hole, Order, Plane, Side, Spindle, SpindleTurn, Start,
     StopKind, Tool, ToolChange, Units,
 };
 
@@ -24,6 +24,20 @@ pub(super) struct Open {
     /// Height of the point of the last hole.
     pub point: Option<f64>,
     pub first_return: Option<f64>,
+    /// The last hole.
+    pub last: Option<Hole>,
+    /// The number of holes made one after the other, up to the last one, that differ from the hole before only in their
+    /// position.
+    pub alike: u64,
+}
+
+impl Open {
+    /// Whether a hole differs from the last one only in its position.
+    pub fn is_alike(&self, hole: &Hole) -> bool {
+        let [height, last] = [Some(hole), self.last.as_ref()]
+            .map(|hole| hole.map(|hole| (hole.at.given, hole.at.get(DEPTH), hole.depth)));
+        height == last && hole.at.given & !(1 << DEPTH) == 0b11
+    }
 }
 
 /// Current state of the job.
@@ -117,7 +131,7 @@ impl Job {
                 self.compensated(&target, None, rapid, to)
             }
             Event::CycleBegin(spec) => {
-                self.cycle = Some(Open { spec: spec.clone(), point: None, first_return: None });
+                self.cycle = Some(Open { spec: spec.clone(), point: None, first_return: None, last: None, alike: 0 });
                 check(spec).map_err(Box::<Diag>::from)
             }
             Event::Hole(hole) => self.hole(&hole, to),

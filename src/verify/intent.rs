@@ -30,6 +30,9 @@ pub(super) trait Intent {
     fn thread(&mut self, cut: &Cut, thread: &Threaded) -> Done;
     /// Sets that the job is for a lathe. `by_diameter`: X in the program is a diameter, not a radius.
     fn is_of_lathe(&mut self, by_diameter: bool);
+    /// Compares a hole that differs from the last two holes only in its position. `false`: the moves of the hole must be
+    /// passed on.
+    fn next_hole(&mut self, at: [f64; 2]) -> bool;
     /// The moves of a hole begin.
     fn hole_begins(&mut self, hole: &Expected);
     /// The moves of a hole end.

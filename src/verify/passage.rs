@@ -253,6 +253,19 @@ impl Passage {
         }
     }
 
+    /// Whether the passage is only rapids straight up or down.
+    pub fn only_lifts(&self) -> bool {
+        let is_over = |start: &Rapid| self.rapids.iter().all(|rapid| rapid.to[..2] == start.to[..2]);
+        self.only_moves() && self.start.as_ref().is_some_and(is_over)
+    }
+
+    /// Moves the whole passage across.
+    pub fn shift(&mut self, at: [f64; 2]) {
+        for rapid in self.start.iter_mut().chain(&mut self.rapids) {
+            (rapid.to[0], rapid.to[1]) = (at[0], at[1]);
+        }
+    }
+
     /// Records a rapid of these axes to a machine position, measured from this reference point. `length`: the axis of
     /// the tool length and its register, if the length may count in this position.
     pub fn reaches_machine(&mut self, axes: u8, point: usize, to: &Place, length: Option<(usize, f64)>) {

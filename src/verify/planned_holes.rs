@@ -13,6 +13,15 @@ use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, StopKind, Units, impossib
 impl Job {
     /// Passes on the motions of one hole of the open cycle.
     pub(super) fn hole(&mut self, hole: &Hole, to: &mut impl Intent) -> Done {
+        let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
+        let is_alike = open.is_alike(hole);
+        let [x, y, ..] = hole.at.values;
+        if is_alike && open.alike > 0 && to.next_hole([x, y]) {
+            (self.at.values[0], self.at.values[1]) = (x, y);
+            return Ok(());
+        }
+        open.alike = if is_alike { open.alike + 1 } else { 0 };
+        open.last = Some(*hole);
         let at = self.place(&hole.at);
         let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
         let defaults = self.expectation.defaults[usize::from(self.units == Some(Units::Mm))];

@@ -44,6 +44,8 @@ pub(super) struct Holes {
     pub highest: Option<f64>,
     /// Whether the program has made a cut in the current hole.
     pub cut: bool,
+    /// Whether the last hole was a usual one, so that the next hole may be compared by its position only.
+    pub is_usual: bool,
     /// The job's cuts in a pecked hole.
     pub pecks: Vec<Cut>,
     /// The height where the feed began in the hole of the last cut. `None`: the cut was not in a hole, or only the form

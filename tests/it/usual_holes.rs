@@ -200,6 +200,79 @@ proptest! {
     }
 }
 
+/// Blocks that come between two holes, or instead of one.
+const BETWEEN: [&str; 22] = [
+    "X1. Y1.",
+    "X30.",
+    "Y20. Z-6.",
+    "X1. R3.",
+    "F50.",
+    "M5",
+    "M9",
+    "S500 M3",
+    "G4 P1.",
+    "M0",
+    "G55",
+    "G91",
+    "G90",
+    "G98",
+    "G99",
+    "G80",
+    "G0 Z30.",
+    "G0 X5.",
+    "G1 X5. F100.",
+    "G82 X3. Z-5. R2. P1. F200.",
+    "G92 X1.",
+    "G20",
+];
+
+/// Whether a block has only a position.
+fn is_position(block: &str) -> bool {
+    let words = || block.split(' ').filter(|word| !word.starts_with('N'));
+    words().count() > 0 && words().all(|word| word.starts_with(['X', 'Y']))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Holes whose blocks have only a position are compared by separate fast code. With a comment in each of these
+    /// blocks, the general code compares them; both must give the same verdict, with the same findings.
+    #[test]
+    fn a_program_with_comments_is_proven_like_one_without(
+        cycles in prop::collection::vec((0..CYCLES.len(), prop::collection::vec(point(), 1..12)), 1..3),
+        form in prop::sample::select(vec!["linuxcnc", "fanuc", "haas", "mach3"]),
+        wrong in prop::option::of((0_usize..10_000, b'0'..=b'9')),
+        between in prop::option::of((0_usize..100, prop::sample::select(BETWEEN.to_vec()))),
+        left_out in prop::option::weighted(0.2, 0_usize..100),
+    ) {
+        let form = fs::read_to_string(root().join(format!("postforms/{form}.pf"))).unwrap();
+        let job = job(&cycles, false);
+        let post = Post::compile(Source::from_text("form.pf", &form), &NoFiles).unwrap();
+        let mut program = printed(&form, &job).unwrap().into_bytes();
+        let begin = program.windows(3).position(|text| text.starts_with(b" G8") || text.starts_with(b" G7")).unwrap();
+        // changes one digit
+        let digits: Vec<usize> = (begin..program.len()).filter(|&at| program[at].is_ascii_digit()).collect();
+        if let Some((which, digit)) = wrong {
+            program[digits[which % digits.len()]] = digit;
+        }
+        let program = String::from_utf8(program).unwrap();
+        let mut lines: Vec<&str> = program.lines().collect();
+        let holes: Vec<usize> = (0..lines.len()).filter(|&at| is_position(lines[at])).collect();
+        if let (Some(which), false) = (left_out, holes.is_empty()) {
+            lines.remove(holes[which % holes.len()]);
+        }
+        if let (Some((which, block)), false) = (between, holes.is_empty()) {
+            lines.insert(holes[which % holes.len()], block);
+        }
+        let verdict = |comment: &str| {
+            let line = |line: &&str| format!("{line}{}\n", if is_position(line) { comment } else { "" });
+            let program: String = lines.iter().map(line).collect();
+            format!("{:?}", post.verify(Job::json_lines(&job), &program).unwrap()).replace(" (c)", "")
+        };
+        prop_assert_eq!(verdict(""), verdict(" (c)"), "{}\n{}", job, lines.join("\n"));
+    }
+}
+
 /// A sequence may move the tool away before a hole. The hole moves the tool back, so a cut can follow the cycle.
 #[test]
 fn a_cut_follows_holes_after_an_upon_that_moves() {

@@ -5,6 +5,7 @@ mod beam;
 mod doubt;
 mod hazards;
 mod motions;
+mod next_hole;
 mod plain;
 mod texts;
 mod tools;
@@ -56,6 +57,8 @@ pub(super) struct Program<'a> {
     is_rigid_ahead: bool,
     mode: FeedMode,
     cycle: bool,
+    /// Whether the next hole may be compared by its position only.
+    is_alike: bool,
     /// Rotation of the spindle before the tapping cycle of a control, because this cycle starts the spindle itself.
     before_tap: Option<Option<Rotation>>,
     due: Due,
@@ -117,6 +120,7 @@ impl<'a> Program<'a> {
             is_rigid_ahead: false,
             mode: FeedMode::PerMinute,
             cycle: false,
+            is_alike: false,
             before_tap: None,
             due: Due::new(expectation, settings.control),
             scale: Scale {
@@ -228,6 +232,7 @@ impl<'a> Program<'a> {
     /// Returns `false` at a cut, at the end of the program, or if the passage is too long.
     #[inline]
     fn goes_on(&mut self) -> Result<bool, RunError> {
+        self.is_alike = false;
         if self.next < self.items.len() {
             let items = std::mem::take(&mut self.items);
             while self.cut.is_none()

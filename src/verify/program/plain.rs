@@ -20,20 +20,27 @@ impl Program<'_> {
     /// another kind.
     #[inline]
     pub fn before_plain(&self) -> Option<(&Place, FeedMode, &Shared)> {
-        let is_usual = self.cut.is_none()
-            && self.next == self.items.len()
+        let is_usual = self.next == self.items.len()
+            && (self.unknown == 0 || self.scale.flat && self.unknown == 0b100)
+            && self.is_usual();
+        is_usual.then_some((&self.at, self.mode, &self.state))
+    }
+
+    /// Whether the program is directly after a cut, and the next cut needs none of the checks that only few programs
+    /// need.
+    #[inline]
+    pub(super) fn is_usual(&self) -> bool {
+        self.cut.is_none()
             && !(self.over || self.ended)
             && self.doubt.is_none()
             && self.failed.is_none()
-            && (self.unknown == 0 || self.scale.flat && self.unknown == 0b100)
             && self.scale.wire.is_none()
             && self.passage.is_plain()
             && !self.passage.new_tool
             && self.beam.is_none()
             && !self.due.has_units()
             && !self.length_is_due()
-            && (!self.state.css || self.scale.surface() == 1.0);
-        is_usual.then_some((&self.at, self.mode, &self.state))
+            && (!self.state.css || self.scale.surface() == 1.0)
     }
 
     /// Runs the next block after [`Program::before_plain`]. If the block makes a cut of the most frequent kind, returns

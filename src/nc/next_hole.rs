@@ -1,0 +1,216 @@
+//! Makes the next hole of a canned cycle without its actions. From the third hole of a cycle on, a block that has only a
+//! position makes the same actions as the block before, at another position: the first of these blocks has changed every
+//! value of the control that such a block can change. A caller that has the actions of the last hole therefore needs only
+//! the new position. [`Simulator::step`] gives the same result for these blocks; a test compares both results.
+
+use std::io::BufRead;
+
+use super::action::Position;
+use super::block::Block;
+use super::codes::{AXES, letters};
+use super::simulator::Simulator;
+use super::state::State;
+use crate::toolpath::Plane;
+
+/// The words of a block that has only a position.
+const WORDS: u32 = letters("XYN");
+
+/// The number of holes that blocks with only a position must have made before the next hole is sure to be the same.
+const SETTLED: u8 = 2;
+
+/// The longest line that is read ahead. All controls accept lines of this length.
+const LONGEST: usize = 64;
+
+/// The next hole of a cycle. It differs from the last hole only in its position.
+#[derive(Clone, Copy, Debug)]
+pub struct NextHole {
+    /// The position at the return level of the cycle.
+    pub at: Position,
+    /// Length of the line in bytes.
+    length: usize,
+}
+
+impl State {
+    /// Whether the block that was just run has only a position and has made a hole.
+    pub(super) fn makes_hole_by_position(&self, block: &Block) -> bool {
+        block.plain
+            && has_only_position(block)
+            && self.modes.absolute
+            && self.modes.plane == Plane::Xy
+            && self.holes.work.is_none()
+            && self.cycle_in_force().is_some()
+    }
+
+    /// The position of the hole that a block makes, if the hole differs from the last one only in its position.
+    fn next_hole(&self, block: &Block) -> Option<Position> {
+        let is_usual = has_only_position(block)
+            && self.place.at_machine == 0
+            // the meaning of lengths without a decimal point depends on a setting
+            && (block.whole & AXES == 0 || self.control.rules().is_nist());
+        let mut at = self.place.position;
+        for axis in 0..2 {
+            at[axis] = self.axis_word(block, axis).unwrap_or(at[axis]);
+        }
+        is_usual.then_some(at)
+    }
+}
+
+fn has_only_position(block: &Block) -> bool {
+    block.given & !WORDS == 0 && !block.has_g
+}
+
+impl Simulator<'_> {
+    /// The hole that the next block makes, if it differs from the last hole only in its position. The block is not run:
+    /// call [`Simulator::make_hole`], or run it by [`Simulator::step`].
+    pub fn next_hole(&mut self) -> Option<NextHole> {
+        let is_settled = self.state.holes.alike >= SETTLED && !self.unfinished && !self.over && self.frames.is_empty();
+        if !is_settled {
+            return None;
+        }
+        self.ahead.clear();
+        // a line that is not complete in the buffer is left to the general reader
+        let length = self.ahead.read_plain(self.input.buffer(), self.state.settings.control)?;
+        let at = self.state.next_hole(&self.ahead).filter(|_| length <= LONGEST)?;
+        Some(NextHole { at, length })
+    }
+
+    /// Makes the hole that [`Simulator::next_hole`] has returned. The actions from [`Action::Hole`] on are those of the
+    /// last hole, at the new position.
+    ///
+    /// [`Action::Hole`]: super::action::Action::Hole
+    pub fn make_hole(&mut self, hole: &NextHole) {
+        self.line.clear();
+        self.line.extend_from_slice(&self.input.buffer()[..hole.length]);
+        self.input.consume(hole.length);
+        self.at.byte += hole.length as u64;
+        self.at.line += 1;
+        self.ran = self.at.line;
+        self.blocks += 1;
+        self.state.place.position = hole.at;
+        self.state.holes.alike = self.state.holes.alike.saturating_add(1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::control::Control;
+    use crate::nc::{Action, Drilling, Item, RunSettings};
+
+    /// The items of a program, and the state of the control after each block. `ahead`: holes are made by
+    /// [`Simulator::make_hole`] where possible, with the items of the last hole. Also returns the number of these holes.
+    fn run(program: &str, name: &str, ahead: bool) -> (Vec<Vec<Item>>, Vec<String>, usize) {
+        let control = Control::named(name).unwrap();
+        let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), RunSettings::new(control));
+        let (mut items, mut states, mut made) = (Vec::<Vec<Item>>::new(), Vec::new(), 0);
+        loop {
+            let mut own = Vec::new();
+            if let Some(hole) = simulator.next_hole().filter(|_| ahead) {
+                simulator.make_hole(&hole);
+                made += 1;
+                own = items.iter().rfind(|items| !items.is_empty()).unwrap().clone();
+                shift(&mut own, &hole.at, simulator.line());
+            } else if !matches!(simulator.step(&mut own), Ok(true)) {
+                items.push(own);
+                return (items, states, made);
+            }
+            items.push(own);
+            states.push(format!("{:?} {} {:?}", simulator.state, simulator.blocks(), simulator.text()));
+        }
+    }
+
+    /// Moves the actions of a hole to another position. LinuxCNC may raise the tool over the last hole first.
+    fn shift(items: &mut [Item], at: &Position, line: u64) {
+        let of_hole = |item: &Item| if let Action::Hole(hole) = &item.action { Some(**hole) } else { None };
+        let Drilling { at: before, shift, .. } = items.iter().find_map(of_hole).unwrap();
+        let begin = items.iter().position(|item| of_hole(item).is_some()).unwrap();
+        for (index, item) in items.iter_mut().enumerate() {
+            item.line = line;
+            let to = match &mut item.action {
+                Action::Rapid { to, .. } | Action::Feed { to, .. } => to,
+                Action::Hole(hole) => &mut hole.at,
+                _ => continue,
+            };
+            for axis in 0..2 {
+                // a boring cycle also moves beside the axis of the hole
+                let beside = if to[axis] == before[axis] { 0.0 } else { shift[axis] };
+                to[axis] = if index < begin { before[axis] } else { at[axis] + beside };
+            }
+        }
+    }
+
+    /// The first blocks of cycles, and blocks between holes.
+    const BLOCKS: [&str; 31] = [
+        "G81 X1. Y1. Z-5. R2. F200.",
+        "G98 G81 X1. Y1. Z-5. R2. F200.",
+        "G99 G82 X1. Y1. Z-5. R2. P1. F200.",
+        "G83 X1. Y1. Z-5. R2. Q1. F200.",
+        "G99 G73 X1. Z-5. R2. Q1. F90.",
+        "G84 X1. Y1. Z-5. R2. F200.",
+        "G85 X1. Y1. Z-5. R2. F200.",
+        "G86 X1. Y1. Z-5. R2. P0. F200.",
+        "G76 X1. Y1. Z-5. R2. Q1. F200.",
+        "G81 G91 X1. Y1. Z-5. R-2.",
+        "G0 Z9.",
+        "G0 Z-9.",
+        "X1. Y2. Z-3.",
+        "X1. R5.",
+        "G80",
+        "G90",
+        "G91",
+        "G98",
+        "G99",
+        "G20",
+        "G21",
+        "F50.",
+        "M8",
+        "M3 S500",
+        "M5",
+        "G55",
+        "G92 X1.",
+        "G17",
+        "G18",
+        "(comment)",
+        "",
+    ];
+
+    fn block() -> impl Strategy<Value = String> {
+        let value = "-?[0-9]{1,2}(\\.[0-9]{0,3})?";
+        let position = prop_oneof![
+            3 => (value, value).prop_map(|(x, y)| format!("X{x} Y{y}")),
+            1 => value.prop_map(|x| format!("X{x}")),
+            1 => value.prop_map(|y| format!("N7 Y{y}.")),
+        ];
+        let positions = prop::collection::vec(position, 1..6).prop_map(|lines| lines.join("\n"));
+        prop_oneof![2 => positions, 1 => prop::sample::select(BLOCKS.to_vec()).prop_map(str::to_owned)]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(300))]
+
+        #[test]
+        fn holes_made_ahead_are_those_of_the_general_code(
+            blocks in prop::collection::vec(block(), 1..12),
+            first in prop::sample::select(BLOCKS[..10].to_vec()),
+            name in prop::sample::select(vec!["linuxcnc", "emc2", "mach3", "fanuc", "haas", "fadal", "centroid", "fanuc-lathe", "grbl"]),
+        ) {
+            let program = format!("G21 G90 G94 F100.\nS1000 M3\nG0 X0. Y0. Z5.\n{first}\n{}\nM30\n", blocks.join("\n"));
+            let [general, ahead] = [false, true].map(|ahead| run(&program, name, ahead));
+            prop_assert_eq!(general.0, ahead.0, "{}", program);
+            prop_assert_eq!(general.1, ahead.1, "{}", program);
+        }
+    }
+
+    #[test]
+    fn holes_after_the_third_are_made_ahead() {
+        let holes = |name: &str| {
+            let points: String = (0..20).map(|x| format!("X{x}.\n")).collect();
+            run(&format!("G21 G90 G94 F100.\nS1000 M3\nG0 X0. Y0. Z5.\n{}\n{points}M30\n", BLOCKS[0]), name, true).2
+        };
+        assert_eq!(["linuxcnc", "mach3", "fanuc", "haas"].map(holes), [18; 4]);
+    }
+}

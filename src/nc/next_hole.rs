@@ -48,8 +48,8 @@ impl State {
             // the meaning of lengths without a decimal point depends on a setting
             && (block.whole & AXES == 0 || self.control.rules().is_nist());
         let mut at = self.place.position;
-        for axis in 0..2 {
-            at[axis] = self.axis_word(block, axis).unwrap_or(at[axis]);
+        for (axis, value) in at.iter_mut().enumerate().take(2) {
+            *value = self.axis_word(block, axis).unwrap_or(*value);
         }
         is_usual.then_some(at)
     }

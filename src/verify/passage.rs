@@ -498,11 +498,12 @@ impl Passage {
         self.rapids.is_empty() && self.only_moves()
     }
 
-    /// Whether the passage contains only rapids, all in one frame.
+    /// Whether the passage contains only rapids without compensation, all in one frame.
     #[inline]
     pub fn only_moves(&self) -> bool {
-        let only_path = !self.touched || self.stops.is_empty() && self.waits.is_empty() && self.does.is_empty();
-        self.legs.len() == 1 && only_path
+        let only_path =
+            || self.compensated.is_empty() && self.stops.is_empty() && self.waits.is_empty() && self.does.is_empty();
+        self.legs.len() == 1 && (!self.touched || only_path())
     }
 }
 

@@ -2,11 +2,12 @@
 
 use std::io::{Read, Seek};
 
+use super::beside::Compensated;
 use super::cut::{ACROSS, Cut, DEPTH, Rapid, What, is_straight, over, same, same_ends, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Straight, Threaded};
-use super::passage::{Compensated, Frame, Passage, TOO_LONG};
+use super::passage::{Frame, Passage, TOO_LONG};
 use super::program::Program;
 use super::report::{Counts, Report};
 use super::sides::{Holes, Limits, Sides, Unnamed};

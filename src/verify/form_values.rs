@@ -6,6 +6,7 @@ use crate::compile::{Program, WorkWords};
 use crate::control::Control;
 use crate::lang::{Coolant, SEQUENCES, SequenceId, TextId, VarId, VarSet};
 use crate::sema::{Formula, PropertyValue, Values};
+use crate::toolpath::Event;
 
 /// Kinds of events that print a sequence, as bits. If the job has no event of these kinds, the values of the sequence
 /// do not apply.
@@ -157,5 +158,18 @@ impl Values for OfJob<'_> {
 
     fn property_text(&self, _: u16) -> &str {
         ""
+    }
+}
+
+/// The kind of an event, as a bit of [`by`].
+pub(super) fn made_by(event: &Event<'_>) -> u8 {
+    match event {
+        Event::Hole(_) => by::HOLE,
+        Event::Infeed { .. } => by::INFEED,
+        Event::Outfeed { .. } => by::OUTFEED,
+        Event::Begin(_) | Event::End(_) => by::SECTION,
+        Event::Stop(_) | Event::Dwell(_) | Event::Home => by::PAUSE,
+        Event::SubStart(_) | Event::SubEnd | Event::SubCall(_) => by::SUB,
+        _ => by::JOB,
     }
 }

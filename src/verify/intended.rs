@@ -1,11 +1,13 @@
 //! The job's side of the comparison: converts the events of the job to the cuts and paths that the program must make.
 
+use super::beside::Compensated;
 use super::cooled;
-use super::cut::{Cut, DEPTH, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
+use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
-use super::form_values::by;
+use super::form_values::{by, made_by};
 use super::intent::{Done, Intent, Straight, unproven};
-use super::passage::{Compensated, Frame};
+use super::passage::Frame;
+use super::planned_holes::Open;
 use super::subprograms::Subprograms;
 use super::tables::Unmodelled;
 use crate::control::{Control, Group, Meaning, ToolLength};
@@ -14,31 +16,9 @@ use crate::diag::Diag;
 use crate::lang::{Beam, Coolant, Machine};
 use crate::nc::{Kind, Rotation, Turn, rotation_of, tokens};
 use crate::toolpath::{
-    Arc, Axes, CycleSpec, Direction, EdmAction, Event, FeedMode, Hole, Order, Plane, Side, Spindle, SpindleTurn, Start,
-    StopKind, Tool, ToolChange, Units,
+    Arc, Axes, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind, Tool,
+    ToolChange, Units,
 };
-
-/// A cycle that the job has opened and not yet closed.
-pub(super) struct Open {
-    pub spec: CycleSpec,
-    /// Height of the point of the last hole.
-    pub point: Option<f64>,
-    pub first_return: Option<f64>,
-    /// The last hole.
-    pub last: Option<Hole>,
-    /// The number of holes made one after the other, up to the last one, that differ from the hole before only in their
-    /// position.
-    pub alike: u64,
-}
-
-impl Open {
-    /// Whether a hole differs from the last one only in its position.
-    pub fn is_alike(&self, hole: &Hole) -> bool {
-        let [height, last] = [Some(hole), self.last.as_ref()]
-            .map(|hole| hole.map(|hole| (hole.at.given, hole.at.get(DEPTH), hole.depth)));
-        height == last && hole.at.given & !(1 << DEPTH) == 0b11
-    }
-}
 
 /// Current state of the job.
 pub(super) struct Job {
@@ -131,7 +111,7 @@ impl Job {
                 self.compensated(&target, None, rapid, to)
             }
             Event::CycleBegin(spec) => {
-                self.cycle = Some(Open { spec: spec.clone(), point: None, first_return: None, last: None, alike: 0 });
+                self.cycle = Some(Open::new(spec.clone()));
                 check(spec).map_err(Box::<Diag>::from)
             }
             Event::Hole(hole) => self.hole(&hole, to),
@@ -478,19 +458,6 @@ impl Job {
         }
         self.expectation.wire_codes(action).for_each(|code| to.wire(code));
         Ok(())
-    }
-}
-
-/// The kind of an event, as a bit of `form_values::by`.
-fn made_by(event: &Event<'_>) -> u8 {
-    match event {
-        Event::Hole(_) => by::HOLE,
-        Event::Infeed { .. } => by::INFEED,
-        Event::Outfeed { .. } => by::OUTFEED,
-        Event::Begin(_) | Event::End(_) => by::SECTION,
-        Event::Stop(_) | Event::Dwell(_) | Event::Home => by::PAUSE,
-        Event::SubStart(_) | Event::SubEnd | Event::SubCall(_) => by::SUB,
-        _ => by::JOB,
     }
 }
 

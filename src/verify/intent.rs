@@ -1,7 +1,8 @@
 //! The output of the job's side of the comparison: cuts, holes, threads and paths between cuts.
 
+use super::beside::Compensated;
 use super::cut::{Cut, Place, Rapid, Shared};
-use super::passage::{Compensated, Frame};
+use super::passage::Frame;
 use super::tables::Unmodelled;
 use super::wire_codes::Coded;
 use crate::diag::{Code, Diag};

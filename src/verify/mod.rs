@@ -7,6 +7,7 @@
 mod align;
 mod arcs;
 mod begin;
+mod beside;
 mod calls;
 mod comparer;
 mod cooled;

@@ -67,6 +67,10 @@ fn offsets([wanted, is]: [&State; 2], s: &mut Sides<'_>) -> Option<Differs> {
 
 /// Compares the length registers. If the job is an NC program, also compares whether the length offset is on: other
 /// jobs contain no code for it, and a length offset that is off is a hazard of the program.
+/// Helps of the findings about the register of the tool length.
+pub(super) const TOOL_LENGTH: &str = "print G43 H[lcomp] in the tool change";
+pub(super) const WITHOUT: &str = "remove G43, or check the job: its tool cuts without its length";
+
 fn length([wanted, is]: [Option<f64>; 2], s: &mut Sides<'_>) -> Option<Differs> {
     if s.unnamed == Unnamed::NoneSoFar && wanted.is_some() {
         s.unnamed = Unnamed::Off;
@@ -75,14 +79,12 @@ fn length([wanted, is]: [Option<f64>; 2], s: &mut Sides<'_>) -> Option<Differs> 
     if is_length(wanted, is) || is.is_some_and(|is| s.program.is_name(is)) {
         return None;
     }
-    const WITHOUT: &str = "remove G43, or check the job: its tool cuts without its length";
     let is_off = |is: f64| format!("the length offset is H{}, but off in the job", number(is));
     let (help, message) = match (wanted, is) {
         (Some(0.0), Some(b)) => (WITHOUT, is_off(b)),
-        (Some(a), Some(b)) => (
-            "print G43 H[lcomp] in the tool change",
-            format!("the length offset is H{}, but the job's tool has H{}", number(b), number(a)),
-        ),
+        (Some(a), Some(b)) => {
+            (TOOL_LENGTH, format!("the length offset is H{}, but the job's tool has H{}", number(b), number(a)))
+        }
         _ if s.unnamed != Unnamed::Off => return None,
         (Some(a), None) => (
             "write G43 H before the cut, also after a move to the machine zero that ends the offset",

@@ -1,9 +1,10 @@
 //! Compares stops and dwells between cuts. The program must have the stops and dwells of the job, at positions where the
 //! tool may stop. Other stops and dwells are allowed only outside cuts.
 
+use super::beside::Mark;
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, number, same, same_dwell};
 use super::intent::Expected;
-use super::passage::{Mark, Passage};
+use super::passage::Passage;
 use super::rapids;
 use super::sides::Sides;
 use super::tables::STARTED;

@@ -8,7 +8,34 @@ use super::tables::Unmodelled;
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Diag;
 use crate::nc::Rotation;
-use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, StopKind, Units, impossible};
+use crate::toolpath::{Axes, CycleKind, CycleSpec, FeedMode, Hole, StopKind, Units, impossible};
+
+/// A cycle that the job has opened and not yet closed.
+pub(super) struct Open {
+    pub spec: CycleSpec,
+    /// Height of the point of the last hole.
+    pub point: Option<f64>,
+    pub first_return: Option<f64>,
+    /// The last hole.
+    pub last: Option<Hole>,
+    /// The number of holes made one after the other, up to the last one, that differ from the hole before only in their
+    /// position.
+    pub alike: u64,
+}
+
+impl Open {
+    /// The cycle before its first hole.
+    pub fn new(spec: CycleSpec) -> Open {
+        Open { spec, point: None, first_return: None, last: None, alike: 0 }
+    }
+
+    /// Whether a hole differs from the last one only in its position.
+    pub fn is_alike(&self, hole: &Hole) -> bool {
+        let [height, last] = [Some(hole), self.last.as_ref()]
+            .map(|hole| hole.map(|hole| (hole.at.given, hole.at.get(DEPTH), hole.depth)));
+        height == last && hole.at.given & !(1 << DEPTH) == 0b11
+    }
+}
 
 impl Job {
     /// Passes on the motions of one hole of the open cycle.

@@ -1,8 +1,9 @@
 //! Compares what two programs do between two cuts: stops, dwells, frames, changes of the spindle, machine positions.
 
+use super::beside::{AtMachine, Mark};
 use super::cut::{ALL, Rapid, Spin, number, same, same_dwell};
 use super::measured::{self, Across, Between, Frames, Level, Other, Zero};
-use super::passage::{AtMachine, Mark, Standing};
+use super::passage::Standing;
 use super::program::Program;
 use super::program_cuts::{Names, both_shown};
 use super::tables::ANGLE;

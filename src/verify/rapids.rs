@@ -1,9 +1,11 @@
 //! Compares the paths between cuts. The program's path may be higher than the job's path, but not lower, and may not go
 //! to other positions.
 
+use super::beside::Compensated;
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, is_length, number, same, shown};
 use super::idle;
-use super::passage::{Compensated, Entry, Frame, Leg, Passage};
+use super::modal::{TOOL_LENGTH, WITHOUT};
+use super::passage::{Entry, Frame, Leg, Passage};
 use super::rapid_path::{turn_alike, turned_low};
 use super::sides::Sides;
 use super::tails::leaves_low;
@@ -227,9 +229,12 @@ fn moves_astray(s: &mut Sides<'_>, frame: Frame, astray: Astray, line: u64) {
         }
         Astray::Length { is, wanted } => {
             let is = is.map_or("no length register".to_owned(), |h| format!("H{}", number(h)));
-            let job = wanted.map_or("not in the job".to_owned(), |h| format!("the job has H{} there", number(h)));
-            let message = format!("{way} the tool moves in {work} with {is}, but {job}");
-            (Code::PV014, "print G43 H[lcomp] in the tool change", message)
+            let (help, job) = match wanted {
+                Some(0.0) => (WITHOUT, "the length is off in the job".to_owned()),
+                Some(h) => (TOOL_LENGTH, format!("the job has H{} there", number(h))),
+                None => (TOOL_LENGTH, "not in the job".to_owned()),
+            };
+            (Code::PV014, help, format!("{way} the tool moves in {work} with {is}, but {job}"))
         }
     };
     s.found(code, line, help, || message.clone());

@@ -1,9 +1,10 @@
 //! The two sides of a comparison (job and program), and functions that report differences.
 
+use super::beside::Mark;
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::form_values::Own;
 use super::intent::{Expected, Threaded};
-use super::passage::{Frame, Mark, Passage};
+use super::passage::{Frame, Passage};
 use super::program::{Doubt, Program};
 use super::rapid_path::RapidPath;
 use super::report::{Difference, Report};

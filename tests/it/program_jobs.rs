@@ -69,7 +69,7 @@ fn a_tool_has_its_length_or_none() {
 /// program without any code for lengths may be for a machine without tool lengths, so the form may print them.
 #[test]
 fn a_length_that_is_off_stays_off() {
-    const IS_ON: &str = "the tool moves with tool length offset H1";
+    const IS_ON: &str = "with H1, but the length is off in the job";
     const IS_OFF: &str = "without its length offset";
     let cases = [
         ("G43 H0 Z1.", "haas.pf", IS_OFF),

@@ -61,13 +61,13 @@ fn a_proof_compares_the_names_of_tools() {
     };
     wrong(["Mill 10", "DRILL_8"], "tool 7 cuts, but the job has tool 1 here");
     // the job has not named tool 1 yet
-    wrong(["DRILL_8", "Mill 10"], "before this cut tool \"Mill 10\" moves");
-    wrong(["DRILL_8", "DRILL_9"], "before this cut tool \"DRILL_9\" moves");
+    wrong(["DRILL_8", "Mill 10"], "before this cut tool \"Mill 10\" is loaded");
+    wrong(["DRILL_8", "DRILL_9"], "before this cut tool \"DRILL_9\" is loaded");
     // a form may shorten the names
     let short = FORM.replace("[toolname]", "[toolname:5]");
     assert!(verdict(&short, JOB, ["", ""]).is_proven());
     match verdict(&short, JOB, ["DRILL", "DRIL"]) {
-        Verdict::Different(found) => assert!(found[0].message.contains("tool \"DRIL\" moves"), "{found:#?}"),
+        Verdict::Different(found) => assert!(found[0].message.contains("tool \"DRIL\" is loaded"), "{found:#?}"),
         other => panic!("{other:#?}"),
     }
 }

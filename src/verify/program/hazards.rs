@@ -5,8 +5,8 @@ use super::Program;
 use crate::control::{Rules, ToolLength};
 use crate::diag::Code;
 use crate::nc::{Action, Compensation, Item, Rotation};
+use crate::verify::beside::Compensated;
 use crate::verify::finding::Finding;
-use crate::verify::passage::Compensated;
 
 impl Program<'_> {
     /// Reports a move in a frame that G92 set while the position was known only at the machine.

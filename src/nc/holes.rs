@@ -13,7 +13,7 @@ pub struct Holes {
     /// Values that are kept for the next hole.
     pub series: Series,
     /// The number of holes that were made by the last blocks one after the other, each block with only a position in
-    /// the plane of the cycle. Counted by `next_hole.rs`.
+    /// the plane of the cycle. Counted by `ahead.rs`.
     pub alike: u8,
     /// The part of the block's cycle that has not been run yet.
     pub work: Option<Work>,

@@ -4,6 +4,7 @@
 //! usual interpretation of their manuals.
 
 mod action;
+mod ahead;
 mod arcs;
 mod before;
 mod block;
@@ -29,7 +30,6 @@ mod macros;
 mod modal;
 mod modes;
 mod motion;
-mod next_hole;
 mod offsets;
 mod out;
 mod pace;
@@ -57,6 +57,7 @@ mod way;
 
 pub use action::{Action, Cooling, Cycle, Drilling, Item, Position, ROTARY, Rotation, Threading, Turn};
 pub(crate) use action::{Compensation, Cutter};
+pub(crate) use ahead::NextCut;
 pub(crate) use arcs::axes_of;
 pub(crate) use digits::Number;
 pub use foreign::{control_of_name, settings_for};

@@ -2,6 +2,7 @@
 //! blocks of long programs are simple blocks. Checks that can't apply to a simple block are left out. [`State::run`]
 //! gives the same result for simple blocks; a test compares both results.
 
+use super::action::{Action, Position};
 use super::block::Block;
 use super::codes::{AXES, Group, bit, g_code, letters};
 use super::out::Out;
@@ -86,10 +87,39 @@ impl Block {
     }
 }
 
+/// The cut of a simple block.
+#[derive(Clone, Copy, Debug)]
+pub struct PlainCut {
+    /// End of the cut.
+    pub to: Position,
+    /// The feed, in the feed mode's unit.
+    pub feed: f64,
+    /// The axes that the block contains, as bits.
+    given: u8,
+}
+
 impl State {
     /// Makes the cut of a simple block. Returns `false` if `State::run` must run the block.
     #[inline]
     pub(super) fn cuts_plainly(&mut self, block: &Block, out: &mut Out<'_>) -> bool {
+        let Some(cut) = self.plain_cut(block) else { return false };
+        self.cut_to(&cut);
+        let PlainCut { to, feed, .. } = cut;
+        out.push(Action::Feed { to, feed, lead: None, machine: self.place.at_machine, home: 0 });
+        true
+    }
+
+    /// Makes a cut of [`State::plain_cut`], without its action.
+    #[inline]
+    pub(super) fn cut_to(&mut self, cut: &PlainCut) {
+        self.drive.set_feed(cut.feed);
+        self.place.are_given(cut.given);
+        self.place.reaches(cut.to);
+    }
+
+    /// The cut of a simple block; `None`: `State::run` must run the block.
+    #[inline]
+    pub(super) fn plain_cut(&self, block: &Block) -> Option<PlainCut> {
         let modes = &self.modes;
         let (word, control) = (block.row(Group::Motion), self.control);
         // a straight cut is active already, so a G1 in the block changes nothing
@@ -110,9 +140,8 @@ impl State {
         let active = if self.drive.feed == self.drive.given_feed { self.drive.feed } else { f64::NAN };
         let feed = if block.given & bit(b'F') != 0 { block.peek(b'F') } else { active };
         if !is_usual || feed.is_nan() || feed <= 0.0 {
-            return false;
+            return None;
         }
-        self.drive.set_feed(feed);
         let mut to = self.place.position;
         let mut given = 0;
         for (axis, letter) in b"XYZABC".iter().enumerate() {
@@ -120,8 +149,6 @@ impl State {
             given |= u8::from(is_given) << axis;
             to[axis] = if is_given { block.values[usize::from(letter - b'A')] } else { to[axis] };
         }
-        self.place.are_given(given);
-        self.place.feed_to(to, feed, None, out);
-        true
+        Some(PlainCut { to, feed, given })
     }
 }

@@ -64,7 +64,7 @@ pub struct Simulator<'a> {
     pub(super) state: State,
     pub(super) parameters: Parameters,
     pub(super) block: Block,
-    /// The block that [`Simulator::next_hole`] has read ahead.
+    /// The block that was read ahead. Only `Block::read_plain` writes to it.
     pub(super) ahead: Block,
     pub(super) line: Vec<u8>,
     /// Position in the input after the current line.
@@ -97,7 +97,7 @@ pub struct Simulator<'a> {
     pub(super) unfinished: bool,
     pub(super) blocks: u64,
     /// Whether any block so far had words.
-    words: bool,
+    pub(super) words: bool,
     /// State of a Siemens program.
     pub(super) siemens: Box<Siemens>,
     /// State of a Klartext program.
@@ -107,7 +107,7 @@ pub struct Simulator<'a> {
     /// Whether the input has ended, so that nothing more can be run.
     pub(super) ended: bool,
     /// Whether the first block has been read, or is being read.
-    begun: bool,
+    pub(super) begun: bool,
     /// Number of O words to skip before the first block.
     pub(super) passing: usize,
     /// The warnings so far, each with its code and its text without the block.

@@ -43,10 +43,7 @@ impl Program<'_> {
         if at == self.at || !same(&at, end, ALL, tolerance) {
             return false;
         }
-        let line = self.simulator.line();
-        if let Some(text) = self.simulator.text_to_keep() {
-            self.recent.keep(line, text);
-        }
+        self.keep_line();
         self.simulator.make_hole(&hole);
         let line = self.simulator.line();
         for item in &mut self.items[self.next - 1..] {

@@ -2,7 +2,7 @@
 //! is compared without creating a [`Cut`](super::Cut), because most cuts of long programs are of this kind.
 
 use super::Program;
-use crate::nc::{Action, Item, RunError};
+use crate::nc::{Action, Item, NextCut, Position, RunError};
 use crate::toolpath::FeedMode;
 use crate::verify::cut::{Place, Rapid, Shared};
 
@@ -13,6 +13,8 @@ pub(in super::super) struct Plain {
     pub to: Place,
     /// The feed in the job's units.
     pub feed: f64,
+    /// The block of the cut, if it is not run yet.
+    ahead: Option<NextCut>,
 }
 
 impl Program<'_> {
@@ -43,30 +45,44 @@ impl Program<'_> {
             && (!self.state.css || self.scale.surface() == 1.0)
     }
 
-    /// Runs the next block after [`Program::before_plain`]. If the block makes a cut of the most frequent kind, returns
-    /// the cut; call [`Program::take_plain`] after it. If not, call [`Program::run_to_cut`] to reach the next cut.
+    /// The next cut after [`Program::before_plain`], if it is of the most frequent kind: then call
+    /// [`Program::take_plain`]. If not, or if the cut differs from the job's, call [`Program::run_to_cut`].
     #[inline]
     pub fn next_plain(&mut self) -> Option<Plain> {
-        if let Err(error) = self.run_block() {
-            self.failed = Some(error);
-            return None;
-        }
-        let [Item { by_cycle: false, action: Action::Feed { to, feed, lead: None, home: 0, .. }, .. }] =
-            &self.items[..]
-        else {
-            return None;
+        let ahead = self.simulator.next_cut();
+        let (to, feed) = match &ahead {
+            Some(NextCut { cut, .. }) => (cut.to, cut.feed),
+            None => self.run_plain()?,
         };
-        let to = self.scale.place(to);
+        let to = self.scale.place(&to);
         if to == self.at || self.simulator.state().frame_unknown() != 0 {
             return None;
         }
         let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
-        Some(Plain { to, feed: feed * factor })
+        Some(Plain { to, feed: feed * factor, ahead })
+    }
+
+    /// Runs the next block. If it makes one cut, returns the end and the feed of the cut.
+    fn run_plain(&mut self) -> Option<(Position, f64)> {
+        if let Err(error) = self.run_block() {
+            self.failed = Some(error);
+            return None;
+        }
+        match &self.items[..] {
+            [Item { by_cycle: false, action: Action::Feed { to, feed, lead: None, home: 0, .. }, .. }] => {
+                Some((*to, *feed))
+            }
+            _ => None,
+        }
     }
 
     /// Ends the cut of [`Program::next_plain`].
     #[inline]
     pub fn take_plain(&mut self, cut: &Plain) {
+        if let Some(ahead) = &cut.ahead {
+            self.keep_line();
+            self.simulator.make_cut(ahead);
+        }
         self.next = self.items.len();
         self.placed = 0;
         self.ends_cut(cut.to);
@@ -77,12 +93,18 @@ impl Program<'_> {
     pub(super) fn run_block(&mut self) -> Result<(), RunError> {
         self.items.clear();
         self.next = 0;
+        self.keep_line();
+        self.over = !self.simulator.step(&mut self.items)?;
+        Ok(())
+    }
+
+    /// Keeps the text of the line that was run last.
+    #[inline]
+    pub(super) fn keep_line(&mut self) {
         let line = self.simulator.line();
         if let Some(text) = self.simulator.text_to_keep() {
             self.recent.keep(line, text);
         }
-        self.over = !self.simulator.step(&mut self.items)?;
-        Ok(())
     }
 
     /// Ends a cut and begins the next passage.

@@ -1,15 +1,19 @@
-//! Makes the next hole of a canned cycle without its actions. From the third hole of a cycle on, a block that has only a
-//! position makes the same actions as the block before, at another position: the first of these blocks has changed every
-//! value of the control that such a block can change. A caller that has the actions of the last hole therefore needs only
-//! the new position. [`Simulator::step`] gives the same result for these blocks; a test compares both results.
+//! Reads simple blocks ahead. The proof compares the block with the job first, and then only needs its effect on the
+//! control, but not its actions. [`Simulator::step`] gives the same result for these blocks; a test compares both results.
+//!
+//! From the third hole of a cycle on, a block that has only a position makes the same actions as the block before, at
+//! another position: the first of these blocks has changed every value of the control that such a block can change. A
+//! caller that has the actions of the last hole therefore needs only the new position.
 
 use std::io::BufRead;
 
 use super::action::Position;
 use super::block::Block;
 use super::codes::{AXES, letters};
+use super::plain::PlainCut;
 use super::simulator::Simulator;
 use super::state::State;
+use crate::control::Rules;
 use crate::toolpath::Plane;
 
 /// The words of a block that has only a position.
@@ -20,6 +24,15 @@ const SETTLED: u8 = 2;
 
 /// The longest line that is read ahead. All controls accept lines of this length.
 const LONGEST: usize = 64;
+
+/// The cut of the next block, which is straight and follows another straight cut.
+#[derive(Clone, Copy, Debug)]
+pub struct NextCut {
+    /// The cut.
+    pub cut: PlainCut,
+    /// Length of the line in bytes.
+    length: usize,
+}
 
 /// The next hole of a cycle. It differs from the last hole only in its position.
 #[derive(Clone, Copy, Debug)]
@@ -60,17 +73,30 @@ fn has_only_position(block: &Block) -> bool {
 }
 
 impl Simulator<'_> {
+    /// The cut that the next block makes, if the block is a simple one. The block is not run: call
+    /// [`Simulator::make_cut`], or run it by [`Simulator::step`].
+    #[inline]
+    pub fn next_cut(&mut self) -> Option<NextCut> {
+        let length = self.read_ahead()?;
+        let cut = self.state.plain_cut(&self.ahead)?;
+        Some(NextCut { cut, length })
+    }
+
+    /// Makes the cut that [`Simulator::next_cut`] has returned.
+    #[inline]
+    pub fn make_cut(&mut self, next: &NextCut) {
+        self.pass_line(next.length);
+        self.state.cut_to(&next.cut);
+    }
+
     /// The hole that the next block makes, if it differs from the last hole only in its position. The block is not run:
     /// call [`Simulator::make_hole`], or run it by [`Simulator::step`].
     pub fn next_hole(&mut self) -> Option<NextHole> {
-        let is_settled = self.state.holes.alike >= SETTLED && !self.unfinished && !self.over && self.frames.is_empty();
-        if !is_settled {
+        if self.state.holes.alike < SETTLED {
             return None;
         }
-        self.ahead.clear();
-        // a line that is not complete in the buffer is left to the general reader
-        let length = self.ahead.read_plain(self.input.buffer(), self.state.settings.control)?;
-        let at = self.state.next_hole(&self.ahead).filter(|_| length <= LONGEST)?;
+        let length = self.read_ahead()?;
+        let at = self.state.next_hole(&self.ahead)?;
         Some(NextHole { at, length })
     }
 
@@ -79,15 +105,39 @@ impl Simulator<'_> {
     ///
     /// [`Action::Hole`]: super::action::Action::Hole
     pub fn make_hole(&mut self, hole: &NextHole) {
+        self.pass_line(hole.length);
+        self.state.place.position = hole.at;
+        self.state.holes.alike = self.state.holes.alike.saturating_add(1);
+    }
+
+    /// Reads the next line into `ahead`, and returns its length. `None`: the line is not simple or not complete in the
+    /// buffer, so the general reader must read it.
+    #[inline]
+    fn read_ahead(&mut self) -> Option<usize> {
+        let control = self.state.settings.control;
+        let is_usual = self.begun
+            && !(self.over || self.unfinished)
+            // the actions of loops and subprograms are counted
+            && self.frames.is_empty()
+            && matches!(control.rules(), Rules::Linuxcnc | Rules::Emc2 | Rules::Fanuc);
+        if !is_usual {
+            return None;
+        }
+        self.ahead.has_g = false;
+        self.ahead.read_plain(self.input.buffer(), control).filter(|length| *length <= LONGEST)
+    }
+
+    /// Takes a line that was read ahead out of the buffer.
+    #[inline]
+    fn pass_line(&mut self, length: usize) {
         self.line.clear();
-        self.line.extend_from_slice(&self.input.buffer()[..hole.length]);
-        self.input.consume(hole.length);
-        self.at.byte += hole.length as u64;
+        self.line.extend_from_slice(&self.input.buffer()[..length]);
+        self.input.consume(length);
+        self.at.byte += length as u64;
         self.at.line += 1;
         self.ran = self.at.line;
         self.blocks += 1;
-        self.state.place.position = hole.at;
-        self.state.holes.alike = self.state.holes.alike.saturating_add(1);
+        self.words = true;
     }
 }
 
@@ -101,19 +151,26 @@ mod tests {
     use crate::control::Control;
     use crate::nc::{Action, Drilling, Item, RunSettings};
 
-    /// The items of a program, and the state of the control after each block. `ahead`: holes are made by
-    /// [`Simulator::make_hole`] where possible, with the items of the last hole. Also returns the number of these holes.
-    fn run(program: &str, name: &str, ahead: bool) -> (Vec<Vec<Item>>, Vec<String>, usize) {
+    /// The items of a program, and the state of the control after each block. `ahead`: cuts and holes are made from the
+    /// blocks read ahead where possible. Also returns the numbers of these cuts and holes.
+    fn run(program: &str, name: &str, ahead: bool) -> (Vec<Vec<Item>>, Vec<String>, [usize; 2]) {
         let control = Control::named(name).unwrap();
         let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), RunSettings::new(control));
-        let (mut items, mut states, mut made) = (Vec::<Vec<Item>>::new(), Vec::new(), 0);
+        let (mut items, mut states, mut made) = (Vec::<Vec<Item>>::new(), Vec::new(), [0; 2]);
         loop {
             let mut own = Vec::new();
             if let Some(hole) = simulator.next_hole().filter(|_| ahead) {
                 simulator.make_hole(&hole);
-                made += 1;
+                made[1] += 1;
                 own = items.iter().rfind(|items| !items.is_empty()).unwrap().clone();
                 shift(&mut own, &hole.at, simulator.line());
+            } else if let Some(next) = simulator.next_cut().filter(|_| ahead) {
+                simulator.make_cut(&next);
+                made[0] += 1;
+                let PlainCut { to, feed, .. } = next.cut;
+                let machine = simulator.state.place.at_machine;
+                let action = Action::Feed { to, feed, lead: None, machine, home: 0 };
+                own.push(Item { line: simulator.line(), by_cycle: false, action });
             } else if !matches!(simulator.step(&mut own), Ok(true)) {
                 items.push(own);
                 return (items, states, made);
@@ -144,7 +201,7 @@ mod tests {
     }
 
     /// The first blocks of cycles, and blocks between holes.
-    const BLOCKS: [&str; 31] = [
+    const BLOCKS: [&str; 44] = [
         "G81 X1. Y1. Z-5. R2. F200.",
         "G98 G81 X1. Y1. Z-5. R2. F200.",
         "G99 G82 X1. Y1. Z-5. R2. P1. F200.",
@@ -176,6 +233,19 @@ mod tests {
         "G18",
         "(comment)",
         "",
+        "G1 X5. F100.",
+        "G1 Z-1.",
+        "X2. F80.",
+        "X2 F80",
+        "G2 X1. Y1. R5.",
+        "G93",
+        "G94",
+        "G7",
+        "G8",
+        "G41 D1",
+        "G28 X0. Y0.",
+        "A90.",
+        "/X1.",
     ];
 
     fn block() -> impl Strategy<Value = String> {
@@ -193,7 +263,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(300))]
 
         #[test]
-        fn holes_made_ahead_are_those_of_the_general_code(
+        fn blocks_read_ahead_run_as_by_the_general_code(
             blocks in prop::collection::vec(block(), 1..12),
             first in prop::sample::select(BLOCKS[..10].to_vec()),
             name in prop::sample::select(vec!["linuxcnc", "emc2", "mach3", "fanuc", "haas", "fadal", "centroid", "fanuc-lathe", "grbl"]),
@@ -206,11 +276,13 @@ mod tests {
     }
 
     #[test]
-    fn holes_after_the_third_are_made_ahead() {
-        let holes = |name: &str| {
+    fn cuts_and_holes_after_the_third_are_read_ahead() {
+        let made = |name: &str| {
             let points: String = (0..20).map(|x| format!("X{x}.\n")).collect();
-            run(&format!("G21 G90 G94 F100.\nS1000 M3\nG0 X0. Y0. Z5.\n{}\n{points}M30\n", BLOCKS[0]), name, true).2
+            let cycle = BLOCKS[0];
+            let program = format!("G21 G90 G94\nG0 Z5.\n{cycle}\n{points}G80\nG1 X0. F90.\n{points}M30\n");
+            run(&program, name, true).2
         };
-        assert_eq!(["linuxcnc", "mach3", "fanuc", "haas"].map(holes), [18; 4]);
+        assert_eq!(["linuxcnc", "mach3", "fanuc", "haas"].map(made), [[20, 18]; 4]);
     }
 }

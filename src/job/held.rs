@@ -3,8 +3,27 @@
 
 use super::left_out_text::{Left, Other};
 use crate::control::Control;
-use crate::lang::Coolant;
-use crate::toolpath::{Given, Spindle, ToolChange};
+use crate::lang::{Coolant, VarId};
+use crate::toolpath::{Given, Spindle, SpindleTurn, ToolChange};
+
+/// Whether a `set` with this name sets a variable. A value of a property applies only to its own operation.
+pub(super) fn is_variable(name: &str) -> bool {
+    VarId::parse(name.trim_matches(['[', ']'])).is_some()
+}
+
+/// The spindle data that an operation must give, so that no earlier value stays active.
+pub(super) fn missing_of_spindle(own: Spindle, before: Spindle) -> Option<&'static str> {
+    let turns = |spindle: Spindle| spindle.turn.is_some_and(|turn| turn != SpindleTurn::Off);
+    if turns(before) && own.turn.is_none() {
+        Some("direction of the spindle")
+    } else if turns(before) && own.speed.is_none() && turns(own) {
+        Some("spindle speed")
+    } else if before.max.is_some() && own.css == Some(true) && own.max.is_none() {
+        Some("highest spindle speed (`max`)")
+    } else {
+        None
+    }
+}
 
 /// The tool axis at the beginning of a job.
 pub(super) const UPRIGHT: [f64; 3] = [0.0, 0.0, 1.0];
@@ -55,14 +74,24 @@ impl Held {
             self.tool = tool;
             (self.spindle, self.coolant, self.until_tool) = (None, None, None);
         }
-        self.spindle = change.spindle.map(|own| turned(own, self.spindle)).or(self.spindle);
+        if let Some(own) = change.spindle {
+            self.spindle(own.of_operation());
+        }
         self.coolant = change.coolant.or(self.coolant);
         self.work = change.work.or(self.work);
         change.set.iter().for_each(|(name, value)| self.set(name, value));
     }
 
-    /// Keeps a value.
+    /// Keeps a change of the spindle.
+    pub fn spindle(&mut self, own: Spindle) {
+        self.spindle = Some(own.after(self.spindle.unwrap_or_default()));
+    }
+
+    /// Keeps the value of a variable.
     pub fn set(&mut self, name: &str, value: &Given) {
+        if !is_variable(name) {
+            return;
+        }
         self.set.retain(|(known, _)| known != name);
         self.set.push((name.to_owned(), value.clone()));
     }
@@ -71,7 +100,7 @@ impl Held {
     pub fn text(&mut self, text: &str, control: &Control, is_selected: bool) {
         let Left { spindle, coolant, other } = Left::by(text, control);
         if spindle != Spindle::default() {
-            self.spindle = Some(turned(spindle, self.spindle));
+            self.spindle(spindle);
         }
         self.coolant = coolant.or(self.coolant);
         match other {
@@ -80,16 +109,5 @@ impl Held {
             Other::Unknown if is_selected => {}
             Other::Unknown => self.unknown = Some(format!("the text `{text}`")),
         }
-    }
-}
-
-/// A spindle state; values that are missing are taken from the spindle state before.
-pub(super) fn turned(own: Spindle, before: Option<Spindle>) -> Spindle {
-    let Some(before) = before else { return own };
-    Spindle {
-        speed: own.speed.or(before.speed),
-        turn: own.turn.or(before.turn),
-        css: own.css.or(before.css),
-        max: own.max.or(before.max),
     }
 }

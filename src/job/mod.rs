@@ -7,6 +7,7 @@ mod kept;
 mod left_out_text;
 mod read;
 mod select;
+mod subs;
 
 pub use format::Format;
 pub use kept::KeptJob;

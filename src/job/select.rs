@@ -6,14 +6,18 @@
 //! position that the tool would have reached. If a state of a left-out operation can't be added, the operation after it is
 //! refused.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 use std::fmt::Display;
 
-use super::held::{Held, UPRIGHT, turned};
+use super::held::{Held, UPRIGHT, is_variable, missing_of_spindle};
 use super::left_out_text::{Left, Other};
+use super::subs::Subs;
 use crate::control::Control;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{Axes, Event, First, Flow, Hold, Hole, Place, Sink, Start, Stop, ToolChange, flow, key};
+use crate::lang::{Coolant, Machine};
+use crate::toolpath::{
+    Axes, Call, Event, First, Flow, Hold, Hole, Place, Sink, Spindle, Start, Stop, ToolChange, flow,
+};
 
 /// The selected operations, by their tools, their numbers or their work offsets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,6 +81,16 @@ impl Progress {
     }
 }
 
+/// The state at the end of the last selected operation.
+#[derive(Default)]
+struct Passed {
+    tool: Option<f64>,
+    spindle: Spindle,
+    at: Axes,
+    /// Whether another tool was used since then.
+    reloads: bool,
+}
+
 /// Passes only the selected operations on.
 pub(super) struct Selecting<'s> {
     /// Holds a tool change back until its first move is filled in.
@@ -91,15 +105,23 @@ pub(super) struct Selecting<'s> {
     left_out: bool,
     /// Whether the next move is the first after a left-out operation, so that its missing axes are filled in.
     fills: bool,
-    /// The open subprogram. A subprogram is always kept, because any operation may call it.
-    subprogram: Option<u64>,
-    /// The subprograms that contain text with an unknown effect.
-    with_text: HashSet<u64>,
+    /// The name of the current operation.
+    name: Option<String>,
+    /// The subprograms, and whether they contain text with an unknown effect. A subprogram is always kept, because any
+    /// operation may call it.
+    subs: Subs,
     held: Held,
+    passed: Passed,
+    /// The linear axes of the machine, as bits.
+    linear: u8,
+    /// The axis along which the tool enters a hole, as a bit.
+    depth: u8,
     /// The tool axis of the events that were passed on.
     passed_tilt: [f64; 3],
     /// The position, with only the axes that are known.
     at: Axes,
+    /// Rotary axes that a subprogram of a left-out operation turned to an unknown angle, as bits.
+    turned: u8,
     tools: Vec<f64>,
     taken: u64,
     /// Number of operations that were left out.
@@ -116,11 +138,15 @@ impl<'s> Selecting<'s> {
             takes: true,
             left_out: false,
             fills: false,
-            subprogram: None,
-            with_text: HashSet::new(),
+            name: None,
+            subs: Subs::default(),
             held: Held::default(),
+            passed: Passed::default(),
+            linear: 0b111,
+            depth: 0b100,
             passed_tilt: UPRIGHT,
             at: Axes::default(),
+            turned: 0,
             tools: Vec::new(),
             taken: 0,
             skipped: 0,
@@ -133,10 +159,21 @@ impl<'s> Selecting<'s> {
         if let Some(tool) = tool.filter(|tool| !self.tools.contains(tool)) {
             self.tools.push(tool);
         }
+        if self.takes {
+            let spindle = self.held.spindle.unwrap_or_default();
+            let at = if self.fills { self.passed.at } else { self.at };
+            self.passed = Passed { tool: self.held.tool, spindle, at, reloads: false };
+        }
+        let frame = (self.held.tool, self.held.work);
         self.held.operation(change);
+        if frame != (self.held.tool, self.held.work) {
+            self.forgets(self.linear);
+        }
+        self.passed.reloads |= self.held.tool != self.passed.tool;
+        self.name.clone_from(&change.name);
         self.takes = self.progress.takes(self.selection, tool, self.held.work);
         if !self.takes {
-            self.left_out = true;
+            (self.left_out, self.fills) = (true, false);
             self.skipped += 1;
             return Flow::Continue(());
         }
@@ -145,22 +182,69 @@ impl<'s> Selecting<'s> {
             return self.sink.event(Event::ToolChange(change), place);
         }
         if let Some(lost) = self.held.lost() {
-            return Flow::Break(not_alone(change, &format!("follows an operation that is left out: {lost}"), place));
+            return Flow::Break(self.not_alone(&format!("follows an operation that is left out: {lost}"), place));
         }
-        let held = &self.held;
-        let change = ToolChange {
-            spindle: held.spindle,
-            coolant: held.coolant,
-            work: held.work,
-            set: held.set.clone(),
-            ..change.clone()
-        };
         if matches!(change.first, First::Cut) {
             let why = "begins with a cut from the last position of an operation that is left out";
-            return Flow::Break(not_alone(&change, why, place));
+            return Flow::Break(self.not_alone(why, place));
+        }
+        // the program does not change this tool, but the job changes it
+        let reloads = self.passed.reloads && self.held.tool == self.passed.tool;
+        let spindle = self.held.spindle.unwrap_or_default();
+        if let Some(missing) = missing_of_spindle(spindle, self.passed.spindle).filter(|_| reloads) {
+            let why = format!(
+                "does not give its {missing}: the value of an earlier operation with the same tool would stay active, \
+                 because the operations with another tool between them are left out"
+            );
+            return Flow::Break(self.not_alone(&why, place));
+        }
+        let held = &self.held;
+        let properties = change.set.iter().filter(|(name, _)| !is_variable(name));
+        let change = ToolChange {
+            spindle: held.spindle,
+            coolant: held.coolant.or(reloads.then_some(Coolant::OFF)),
+            work: held.work,
+            set: held.set.iter().chain(properties).cloned().collect(),
+            ..change.clone()
+        };
+        if let First::Rapid(first) = &change.first {
+            let unknown = self.linear & !self.at.given;
+            self.goes(&Axes { given: first.given & unknown, ..*first });
         }
         self.fills = true;
         flow(self.sink.tool_change(change, place))
+    }
+
+    /// The error that the current operation can't be printed without the operations that are left out.
+    fn not_alone(&self, why: &str, place: Place) -> Stop {
+        let name = self.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
+        let message = format!("the operation{name} {why}");
+        Diag::new(Code::PR060, message).help("include the operation before it too").place(place).into()
+    }
+
+    /// The first move of an operation after a left-out operation, with the missing axes filled in. `filled`: space for a
+    /// call.
+    fn first_move<'e>(&self, event: Event<'e>, filled: &'e mut Call, place: Place) -> Result<Event<'e>, Stop> {
+        let (event, given) = match event {
+            Event::Rapid(to) => (Event::Rapid(self.filled(to)), to.given),
+            Event::Hole(hole) => (Event::Hole(Hole { at: self.filled(hole.at), ..hole }), hole.at.given),
+            Event::SubCall(call) if call.at.given != 0 => {
+                *filled = Call { at: self.filled(call.at), ..*call };
+                (Event::SubCall(filled), call.at.given)
+            }
+            event => (event, 0),
+        };
+        let is_filled = matches!(event, Event::Rapid(_) | Event::Hole(_)) || given != 0;
+        let other = |axis: &usize| !is_filled && self.at.get(*axis) != self.passed.at.get(*axis);
+        let unknown = |axis: &usize| self.turned & !given & 1 << axis != 0;
+        let rotary = (0..6).filter(|axis| self.linear & 1 << axis == 0);
+        let Some(axis) = rotary.filter(|axis| other(axis) || unknown(axis)).map(|axis| b"XYZABC"[axis]).next() else {
+            return Ok(event);
+        };
+        let axis = char::from(axis);
+        let why =
+            format!("does not give {axis} at its first position, but an operation that is left out turns this axis");
+        Err(self.not_alone(&why, place))
     }
 
     /// A position whose missing axes are filled in with the known position.
@@ -175,6 +259,7 @@ impl<'s> Selecting<'s> {
     }
 
     fn goes(&mut self, to: &Axes) {
+        self.turned &= !to.given;
         for axis in 0..6 {
             if let Some(value) = to.get(axis) {
                 self.at.set(axis, value);
@@ -182,52 +267,47 @@ impl<'s> Selecting<'s> {
         }
     }
 
+    /// Discards the positions of these axes.
+    fn forgets(&mut self, axes: u8) {
+        self.at.given &= !axes;
+    }
+
     /// Updates the values that stay in force after an event.
     fn follow(&mut self, event: &Event<'_>) {
+        if let Some(to) = event.target() {
+            self.goes(&to);
+        }
         match event {
-            Event::Rapid(to) | Event::Line { to, .. } => self.goes(to),
-            Event::Arc { arc, .. } => self.goes(&arc.to),
-            Event::Infeed { infeed, .. } => {
-                self.held.is_compensated = true;
-                self.goes(&infeed.to);
-            }
-            Event::Outfeed { to, .. } => {
-                self.held.is_compensated = false;
-                self.goes(to);
-            }
-            Event::Hole(Hole { at, .. }) => {
-                self.goes(at);
-                self.at.given &= !0b100; // the retract height depends on the cycle
-            }
-            Event::SubCall(call) => {
-                if self.with_text.contains(&key(call.sub)) && !self.takes {
-                    self.held.unknown = Some(format!("the text in subprogram {}", call.sub));
-                }
-                self.at = Axes::default();
-            }
-            Event::Home | Event::Thread(_) | Event::Edm(_) => self.at = Axes::default(),
+            Event::Infeed { .. } => self.held.is_compensated = true,
+            Event::Outfeed { .. } => self.held.is_compensated = false,
+            Event::Hole(_) => self.forgets(self.depth), // the retract height depends on the cycle
+            Event::SubCall(call) => self.calls(call),
+            Event::Home | Event::Thread(_) | Event::Edm(_) => self.forgets(self.linear),
             Event::Tilt(axis) => self.held.tilt = *axis,
             Event::Text(text) => self.held.text(text, self.control, self.takes),
             Event::Work(work) => {
-                self.held.work = Some(*work);
-                self.at = Axes::default();
+                if self.held.work.replace(*work) != Some(*work) {
+                    self.forgets(self.linear);
+                }
             }
-            Event::Spindle(spindle) => self.held.spindle = Some(turned(*spindle, self.held.spindle)),
+            Event::Spindle(spindle) => self.held.spindle(*spindle),
             Event::Coolant(coolant) => self.held.coolant = Some(*coolant),
             Event::Set(name, value) => self.held.set(name, value),
             _ => {}
         }
     }
 
-    /// Keeps which subprograms contain text with an unknown effect, directly or in a subprogram that they call.
-    fn follow_subprogram(&mut self, number: u64, event: &Event<'_>) {
-        let has_text = match event {
-            Event::Text(text) => Left::by(text, self.control).other == Other::Unknown,
-            Event::SubCall(call) => self.with_text.contains(&key(call.sub)),
-            _ => false,
-        };
-        if has_text {
-            self.with_text.insert(number);
+    /// Updates the state after a call: the tool is at an unknown position, and the axes that the subprogram turns have an
+    /// unknown angle.
+    fn calls(&mut self, call: &Call) {
+        let effect = self.subs.effect(call.sub);
+        if effect.has_text && !self.takes {
+            self.held.unknown = Some(format!("the text in subprogram {}", call.sub));
+        }
+        self.goes(&call.at);
+        self.forgets(self.linear | effect.axes);
+        if !self.takes {
+            self.turned |= effect.axes & !self.linear;
         }
     }
 
@@ -259,6 +339,11 @@ impl<'s> Selecting<'s> {
 
     /// The head, without the tools that are left out.
     fn start(&mut self, start: &Start, place: Place) -> Flow {
+        (self.linear, self.depth) = match start.machine {
+            Machine::Mill => (0b111, 0b100),
+            Machine::Lathe => (0b111, 0b001),
+            Machine::Edm => (0b1111, 0),
+        };
         let Some(order) = &start.tool_order else { return self.sink.event(Event::Start(start), place) };
         let mut progress = Progress::default();
         let mut taken = order.clone();
@@ -274,26 +359,27 @@ impl Sink for Selecting<'_> {
         match event {
             Event::Start(start) => return self.start(start, place),
             Event::ToolChange(change) => return self.change(change, place),
-            Event::SubStart(number) => self.subprogram = Some(key(number)),
             Event::Finish => self.selects_operations()?,
             _ => {}
         }
-        if let Some(number) = self.subprogram {
-            self.follow_subprogram(number, &event);
-            self.subprogram = self.subprogram.filter(|_| !matches!(event, Event::SubEnd));
+        let control = self.control;
+        if self.subs.define(&event, |text| Left::by(text, control).other == Other::Unknown) {
             return self.sink.event(event, place);
         }
-        // missing axes of the move are filled in from the position before it
-        let event = match event {
-            Event::Rapid(to) if self.fills => Event::Rapid(self.filled(to)),
-            Event::Hole(hole) if self.fills => Event::Hole(Hole { at: self.filled(hole.at), ..hole }),
-            event => event,
+        // an operation after a left-out operation begins at the position before it
+        let mut call = Call { sub: 0.0, times: 0.0, at: Axes::default(), work: None };
+        let event = match self.fills && event.moves() {
+            true => match self.first_move(event, &mut call, place) {
+                Ok(event) => event,
+                Err(stop) => return Flow::Break(stop),
+            },
+            false => event,
         };
         self.follow(&event);
         if !self.takes && !matches!(event, Event::Finish) || matches!(event, Event::Tilt(_)) {
             return Flow::Continue(());
         }
-        self.fills &= !matches!(event, Event::Rapid(_) | Event::Hole(_));
+        self.fills &= !event.moves();
         self.pass(event, place)
     }
 }
@@ -301,11 +387,4 @@ impl Sink for Selecting<'_> {
 /// Tools in a message: `T1, T2`.
 fn listed(tools: impl IntoIterator<Item = impl Display>) -> String {
     tools.into_iter().map(|tool| format!("T{tool}")).collect::<Vec<_>>().join(", ")
-}
-
-/// The error that an operation can't be printed without the operations that are left out.
-fn not_alone(change: &ToolChange, why: &str, place: Place) -> Stop {
-    let name = change.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
-    let message = format!("the operation{name} {why}");
-    Diag::new(Code::PR060, message).help("include the operation before it too").place(place).into()
 }

@@ -130,6 +130,17 @@ pub enum Event<'a> {
 }
 
 impl Event<'_> {
+    /// The position to which the event moves the tool.
+    pub(crate) fn target(&self) -> Option<Axes> {
+        match self {
+            Event::Rapid(to) | Event::Line { to, .. } | Event::Outfeed { to, .. } => Some(*to),
+            Event::Arc { arc, .. } => Some(arc.to),
+            Event::Infeed { infeed, .. } => Some(infeed.to),
+            Event::Hole(hole) => Some(hole.at),
+            _ => None,
+        }
+    }
+
     /// Whether the tool moves to a position, or a subprogram that may move the tool is called.
     pub(crate) fn moves(&self) -> bool {
         matches!(

@@ -227,13 +227,7 @@ impl<'s> Hold<'s> {
     /// Merges a spindle event into the tool change.
     fn change_with(&mut self, spindle: Spindle) {
         if let Some((change, _)) = &mut self.change {
-            let before = change.spindle.unwrap_or_default();
-            change.spindle = Some(Spindle {
-                speed: spindle.speed.or(before.speed),
-                turn: spindle.turn.or(before.turn),
-                css: spindle.css.or(before.css),
-                max: spindle.max.or(before.max),
-            });
+            change.spindle = Some(spindle.after(change.spindle.unwrap_or_default()));
         }
     }
 

@@ -51,6 +51,24 @@ pub struct Spindle {
     pub max: Option<f64>,
 }
 
+impl Spindle {
+    /// The state after this change; values that are missing are taken from the state before.
+    pub(crate) fn after(self, before: Spindle) -> Spindle {
+        Spindle {
+            speed: self.speed.or(before.speed),
+            turn: self.turn.or(before.turn),
+            css: self.css.or(before.css),
+            max: self.max.or(before.max),
+        }
+    }
+
+    /// The spindle data at the beginning of an operation: a speed without a mode is in revolutions per minute, also after an
+    /// operation with surface speed.
+    pub(crate) fn of_operation(self) -> Spindle {
+        Spindle { css: self.css.or(self.speed.map(|_| false)), ..self }
+    }
+}
+
 /// The unit of feeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMode {

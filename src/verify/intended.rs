@@ -215,12 +215,8 @@ impl Job {
             self.at = Axes { given: self.at.given & !0b111, ..self.at };
             self.changed(true, to);
         }
-        if let Some(spindle) = &change.spindle {
-            // a spindle speed is in revolutions per minute unless the job requests a surface speed
-            if spindle.speed.is_some() && spindle.css.is_none() {
-                self.counts_speed(false);
-            }
-            self.spindle(spindle);
+        if let Some(spindle) = change.spindle {
+            self.spindle(&spindle.of_operation());
         }
         if let Some(coolant) = change.coolant {
             self.state.coolant = self.expectation.coolant.of_job(coolant, self.control);

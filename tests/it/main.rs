@@ -51,6 +51,7 @@ mod numbers;
 mod operations;
 mod own_control;
 mod own_values;
+mod parts_of_jobs;
 mod plot;
 mod program_commands;
 mod program_jobs;

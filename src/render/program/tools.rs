@@ -124,11 +124,8 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
         want.put(VarId::Maxrpm, want.most_rpm);
         want.set(VarId::Speedtype, shape.program.settings.speed_type[1]);
     }
-    if change.spindle.is_some_and(|spindle| spindle.speed.is_some() && spindle.css.is_none()) {
-        want.set(VarId::Speedtype, shape.program.settings.speed_type[1]); // default: revolutions per minute
-    }
-    if let Some(spindle) = &change.spindle {
-        want.set_spindle(spindle, shape)?;
+    if let Some(spindle) = change.spindle {
+        want.set_spindle(&spindle.of_operation(), shape)?;
     }
     match change.coolant {
         Some(coolant) => want.set_coolant(coolant, shape)?,

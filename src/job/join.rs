@@ -6,11 +6,11 @@
 
 use std::collections::HashMap;
 
+use super::held::{is_variable, missing_of_spindle};
+use super::subs::Subs;
 use crate::diag::{Code, Diag};
 use crate::lang::{Coolant, Machine};
-use crate::toolpath::{
-    Axes, Event, FeedMode, First, Flow, Place, Sink, Spindle, SpindleTurn, Start, Stop, Tool, ToolChange, key,
-};
+use crate::toolpath::{Axes, Event, First, Flow, Place, Sink, Spindle, Start, Stop, Tool, ToolChange, key};
 
 /// Passes on the events of several jobs as those of one job.
 pub(super) struct Joining<'s> {
@@ -26,6 +26,7 @@ pub(super) struct Joining<'s> {
     tools: HashMap<u64, (Tool, u16)>,
     /// The jobs that contain the subprograms, by their numbers.
     subprograms: HashMap<u64, u16>,
+    subs: Subs,
 }
 
 /// The state that the jobs so far have left active.
@@ -36,7 +37,6 @@ struct Held {
     work: Option<f64>,
     spindle: Spindle,
     coolant: Option<Coolant>,
-    feed_mode: Option<FeedMode>,
     is_tilted: bool,
     is_compensated: bool,
     /// The tool of the last operation.
@@ -59,6 +59,7 @@ impl<'s> Joining<'s> {
             held: Held::default(),
             tools: HashMap::new(),
             subprograms: HashMap::new(),
+            subs: Subs::default(),
         }
     }
 
@@ -124,7 +125,6 @@ impl<'s> Joining<'s> {
         self.held.tool = own.tool.as_ref().map(|tool| tool.number);
         self.held.work = own.work.or(self.held.work);
         self.held.coolant = own.coolant.or(self.held.coolant);
-        self.held.feed_mode = own.feed_mode.or(self.held.feed_mode);
         self.spindle(own.spindle.unwrap_or_default());
         own.set.iter().for_each(|(name, _)| self.sets(name));
         self.held.is_home &= matches!(own.first, First::Nothing);
@@ -139,19 +139,10 @@ impl<'s> Joining<'s> {
     fn is_complete(&self, change: &ToolChange, place: Place) -> Result<(), Box<Stop>> {
         let held = &self.held;
         let spindle = change.spindle.unwrap_or_default();
-        let needs_turn = held.spindle.turn.is_some_and(|turn| turn != SpindleTurn::Off);
         let missing = if change.work.is_none() && held.work.is_some() {
             Some("work offset")
-        } else if needs_turn && spindle.turn.is_none() {
-            Some("direction of the spindle")
-        } else if needs_turn && spindle.speed.is_none() && spindle.turn != Some(SpindleTurn::Off) {
-            Some("spindle speed")
-        } else if held.spindle.max.is_some() && spindle.css == Some(true) && spindle.max.is_none() {
-            Some("highest spindle speed (`max`)")
-        } else if change.feed_mode.is_none() && held.feed_mode.is_some() {
-            Some("feed mode")
         } else {
-            None
+            missing_of_spindle(spindle, held.spindle)
         };
         let mut help = "give it in the first operation of the job, or print the jobs separately";
         let why = if let Some(missing) = missing {
@@ -218,13 +209,11 @@ impl<'s> Joining<'s> {
     }
 
     fn spindle(&mut self, spindle: Spindle) {
-        let held = &mut self.held.spindle;
-        held.turn = spindle.turn.or(held.turn);
-        held.max = spindle.max.or(held.max);
+        self.held.spindle = spindle.after(self.held.spindle);
     }
 
     fn sets(&mut self, name: &str) {
-        if !self.held.set.iter().any(|known| known == name) {
+        if is_variable(name) && !self.held.set.iter().any(|known| known == name) {
             self.held.set.push(name.to_owned());
         }
     }
@@ -232,20 +221,17 @@ impl<'s> Joining<'s> {
     /// Updates the state that stays active after an event.
     fn follow(&mut self, event: &Event<'_>) {
         self.held.is_home &= !event.moves();
+        self.held.axes |= event.target().map_or(0, |to| to.given);
         match event {
             Event::Home => self.held.is_home = true,
             Event::Text(_) => self.held.has_text = true,
-            Event::Rapid(to) | Event::Line { to, .. } => self.held.axes |= to.given,
-            Event::Arc { arc, .. } => self.held.axes |= arc.to.given,
-            Event::Infeed { infeed, .. } => {
-                self.held.axes |= infeed.to.given;
-                self.held.is_compensated = true;
+            Event::Infeed { .. } => self.held.is_compensated = true,
+            Event::Outfeed { .. } => self.held.is_compensated = false,
+            Event::SubCall(call) => {
+                let effect = self.subs.effect(call.sub);
+                self.held.axes |= effect.axes | call.at.given;
+                self.held.has_text |= effect.has_text;
             }
-            Event::Outfeed { to, .. } => {
-                self.held.axes |= to.given;
-                self.held.is_compensated = false;
-            }
-            Event::Hole(hole) => self.held.axes |= hole.at.given,
             Event::Work(work) => self.held.work = Some(*work),
             Event::Spindle(spindle) => self.spindle(*spindle),
             Event::Coolant(coolant) => self.held.coolant = Some(*coolant),
@@ -276,10 +262,11 @@ impl Sink for Joining<'_> {
                     let why = format!("it calls subprogram {}, which only an earlier job contains", call.sub);
                     return Flow::Break(self.wrong(part, &why, "add the subprogram to the job that calls it", place));
                 }
-                self.follow(&event);
             }
-            // a state that a subprogram sets also stays active
-            _ => self.follow(&event),
+            _ => {}
+        }
+        if !self.subs.define(&event, |_| true) {
+            self.follow(&event);
         }
         self.sink.event(event, place)
     }

@@ -114,7 +114,7 @@ fn the_job_that_conflicts_is_named() {
     let texts = [job(HEAD, FIRST), job(HEAD, SECOND), third];
     let error = post("haas.pf").render(join(&texts), &Options::default()).unwrap_err().to_string();
     assert!(error.contains("c can't follow a: its tool 1"), "{error}");
-    // a state that a subprogram sets also stays active
+    // the text of a subprogram has an effect if the job calls the subprogram
     let form = std::fs::read_to_string(root().join("samples/sub-call/form.pf")).unwrap();
     let post = Post::compile(Source::from_text("form.pf", form), &NoFiles).unwrap();
     let head = HEAD.replace("mm", "inch");
@@ -122,6 +122,52 @@ fn the_job_that_conflicts_is_named() {
     let first = job(&format!("{head}{sub}"), &FIRST.replacen("},{\"rapid\"", "},{\"call\":{\"sub\":5}},{\"rapid\"", 1));
     let error = post.render(join(&[first, job(&head, SECOND)]), &Options::default()).unwrap_err().to_string();
     assert!(error.contains("contains text for the program"), "{error}");
+}
+
+/// The definition of a subprogram is not a part of the operations: it changes neither the state that the job before leaves
+/// active, nor the state of its own job.
+#[test]
+fn a_subprogram_has_an_effect_only_where_it_is_called() {
+    let form = std::fs::read_to_string(root().join("samples/sub-call/form.pf")).unwrap();
+    let form = form + "\nMoveHome\nG28 G91 Z0.\nG90\nEnd\n";
+    let post = Post::compile(Source::from_text("form.pf", form), &NoFiles).unwrap();
+    let head = HEAD.replace("mm", "inch");
+    let with = |path: &str, operations: &str| {
+        job(&format!(r#"{head}"subprograms":[{{"number":5,"path":[{{"rapid":[1,1,5]}}{path}]}}],"#), operations)
+    };
+    let home = FIRST.replace(r#"{"rapid":[10,0,5]}"#, r#"{"rapid":[10,0,5]},{"home":true}"#);
+    let call = r#",{"call":{"sub":5}},{"rapid":[10,0,5]}"#;
+    let calls = FIRST.replace(r#",{"rapid":[10,0,5]}"#, call);
+    let again = SECOND.replace("\"tool\":2", "\"tool\":1");
+    let no_turn = again.replace(r#","direction":"cw""#, "");
+    for (first, second, refused) in [
+        // the move home, the spindle and the coolant of the definition are not those of the job before
+        (job(&head, FIRST), with(r#",{"home":true}"#, &again), Some("the tool stays the same")),
+        (job(&head, &home), with(r#",{"home":true}"#, &again), None),
+        (job(&head, &home), with("", &again), None),
+        (job(&head, &home), with(r#",{"spindle":{"direction":"off"}}"#, &no_turn), Some("direction of the spindle")),
+        (job(&head, FIRST), with(r#",{"text":"M100"}"#, SECOND), None),
+        (job(&head, FIRST), with(r#",{"set":{"val1":3}}"#, SECOND), None),
+        (job(&head, FIRST), with(r#",{"rapid":[null,null,null,30]}"#, SECOND), None),
+        // of the job before, only subprograms that it calls have an effect
+        (with(r#",{"text":"M100"}"#, FIRST), job(&head, SECOND), None),
+        (with(r#",{"text":"M100"}"#, &calls), job(&head, SECOND), Some("contains text for the program")),
+        (with(r#",{"rapid":[null,null,null,30]}"#, &calls), job(&head, SECOND), Some("gives A")),
+        // the feed mode is per minute in each operation that gives none
+        (job(&head, &FIRST.replace("\"feed\"", "\"feed_mode\":\"per_minute\",\"feed\"")), job(&head, SECOND), None),
+    ] {
+        let found = post.render(join(&[first, second.clone()]), &Options::default());
+        match (found, refused) {
+            (Err(error), Some(reason)) => assert!(error.to_string().contains(reason), "{second}: {error}"),
+            (Err(error), None) => assert!(!error.to_string().contains("PJ014"), "{second}: {error}"),
+            (Ok(program), refused) => assert_eq!(refused, None, "{second}: {}", program.text()),
+        }
+    }
+    // the coolant of the job before is turned off for a job without coolant
+    let texts = [job(&head, &home), with(r#",{"coolant":"off"}"#, &again)];
+    let program = post.render(join(&texts), &Options::default()).unwrap();
+    let (_, second) = program.text().split_once("G90\n").unwrap();
+    assert!(second.contains("M9"), "{}", program.text());
 }
 
 /// An error has its location in its own job, whether the reader, the renderer or the proof finds it.

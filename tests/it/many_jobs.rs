@@ -144,6 +144,38 @@ fn changed_leaves_out_what_is_newer_than_job_and_form() {
     assert_eq!(last(&run()), "2 programs, none failed");
 }
 
+/// The programs of a run are of one form. If the form changes during the run, the remaining programs fail, and the next run
+/// prints them.
+#[test]
+fn a_form_that_changes_during_a_run_is_noticed() {
+    let folder = shop("form-changes");
+    let plate = folder.read("jobs/plate/job.json");
+    for number in 0..150 {
+        folder.write(&format!("many/{number}.json"), &plate);
+    }
+    let old = folder.read("haas.pf");
+    let arguments = ["render", "many", "--form", "haas.pf", "--out-dir", "nc", "--changed", "--quiet", "--jobs", "1"];
+    let program = std::env!("CARGO_BIN_EXE_postform");
+    let run = std::process::Command::new(program)
+        .args(arguments)
+        .current_dir(&folder.0)
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    while !fs::read_dir(folder.0.join("nc")).is_ok_and(|mut programs| programs.next().is_some()) {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    folder.write("haas.pf", old.replace("G0 G53 Z0", "G0 G53 Z0 (NEW)"));
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    assert!(err(&output).contains("has changed since"), "{}", err(&output));
+    let output = folder.run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    for number in 0..150 {
+        assert!(folder.read(&format!("nc/{number}.nc")).contains("(NEW)"), "{number}");
+    }
+}
+
 #[test]
 fn a_job_is_split_by_tool_operation_and_work_offset() {
     let folder = shop("split");
@@ -337,6 +369,48 @@ fn a_change_of_a_form_is_shown_by_its_kinds() {
         documents.lines().all(|line| line.contains("\"job\":\"jobs/") && line.contains("\"same\":false")),
         "{documents}"
     );
+}
+
+/// In an archive, each job is printed with its own postform.toml.
+#[test]
+fn a_change_of_a_form_is_shown_with_the_settings_of_each_job() {
+    let folder = shop("archive-settings");
+    let form = folder.read("haas.pf");
+    let home = "G0 G53 Z0";
+    let slow = |more: &str| {
+        let form = form.replacen("\nName ", "\nProperty slow yesno no Slow\nName ", 1);
+        form.replace(home, &format!("G0 G53 Z0\n@if [slow]\nM9{more}\n@end\n"))
+    };
+    folder.write("old.pf", slow(""));
+    folder.write("new.pf", slow(" (SLOW)"));
+    folder.write("jobs/plate/postform.toml", "[properties]\nslow = true\n");
+    for jobs in [["jobs/bracket", "jobs/plate"], ["jobs/plate", "jobs/bracket"]] {
+        let output = folder.run(&[&["diff", "--forms", "old.pf", "new.pf"][..], &jobs].concat());
+        let said = out(&output);
+        assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+        assert_eq!(said.lines().last(), Some("1 of 2 programs changes, in 1 kind"), "{said}");
+        assert!(said.contains("as jobs/plate/job.json"), "{said}");
+    }
+}
+
+/// `[jobfile]` is the name of the program's own job.
+#[test]
+fn each_program_names_its_own_job() {
+    let folder = shop("own-job");
+    let form = folder.read("haas.pf");
+    folder.write("named.pf", form.replacen("O[program#]", "O[program#] ([jobfile])", 1));
+    let plate = folder.read("jobs/plate/job.json");
+    for name in ["alpha", "beta", "gamma"] {
+        folder.write(&format!("more/{name}.json"), &plate);
+    }
+    let output = folder.run(&["render", "more", "--form", "named.pf", "--out-dir", "nc", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    for name in ["alpha", "beta", "gamma"] {
+        let job = format!("more/{name}.json");
+        let alone = out(&folder.run(&["render", &job, "--form", "named.pf", "--quiet"]));
+        assert!(alone.contains(&format!("({}.JSON)", name.to_uppercase())), "{alone}");
+        assert_eq!(folder.read(&format!("nc/{name}.nc")), alone);
+    }
 }
 
 /// Each wrong use of the commands is reported by name, and no job is skipped silently.

@@ -14,6 +14,7 @@ use super::say::{message, say};
 use super::{clock, prompt, report};
 
 /// A form without errors, with the answers to its prompts.
+#[derive(Clone)]
 pub struct Prepared {
     /// The compiled form.
     pub post: Post,
@@ -23,6 +24,15 @@ pub struct Prepared {
     pub denies: bool,
     /// The settings for the job and the form.
     pub config: Config,
+}
+
+impl Prepared {
+    /// The form for another job with the same settings.
+    pub fn for_job(&self, job: &Path) -> Prepared {
+        let mut own = self.clone();
+        own.options.job_file = job_file(job);
+        own
+    }
 }
 
 /// Reads a form, shows its findings and prompts for its variables. `None`: the form has errors, which have been shown.
@@ -60,9 +70,13 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     if post.says_time() && options.clock.is_none() {
         options.clock = Some(clock::now()?);
     }
-    options.job_file =
-        job.file_name().filter(|_| job != standard_input).map(|name| name.to_string_lossy().into_owned());
+    options.job_file = job_file(job);
     prompt::ask(&post, &mut options, args.ask, job == standard_input)
         .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
     Ok(Some(Prepared { post, options, denies: args.denies_warnings(), config }))
+}
+
+/// The value of `[jobfile]`: the name of the job's file, without its folder. Standard input has no name.
+pub fn job_file(job: &Path) -> Option<String> {
+    job.file_name().filter(|_| job != Path::new("-")).map(|name| name.to_string_lossy().into_owned())
 }

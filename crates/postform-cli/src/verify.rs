@@ -70,8 +70,8 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
         |(job, ..)| files::name(job),
         "job",
         |(job, form, config)| {
-            let prepared = forms.get(&(form.clone(), config.path.clone()));
-            tried(job, args, prepared.map(|prepared| (form.as_path(), prepared)), config, reporter)
+            let prepared = forms.get(&(form.clone(), config.path.clone())).map(|prepared| prepared.for_job(job));
+            tried(job, args, Some(form.as_path()).zip(prepared.as_ref()), config, reporter)
         },
     )
 }

@@ -1,6 +1,7 @@
 //! The effect of a form's change on many jobs.
 
-use std::collections::BTreeMap;
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -9,7 +10,8 @@ use std::sync::{Mutex, PoisonError};
 
 use super::super::args::{DiffArgs, DiffFormat};
 use super::super::colour::Colour;
-use super::super::prepare::prepare;
+use super::super::config::Config;
+use super::super::prepare;
 use super::super::report::{Reporter, count};
 use super::super::{Ending, files, many, output};
 use super::sides::printed_by;
@@ -43,9 +45,7 @@ pub fn run(
     }
     let jobs = many::jobs(jobs)?;
     files::check_formats(&jobs, &args.read)?;
-    let [old, new] = forms.map(|form| prepare(form, &args.options, &jobs[0], reporter));
-    let (Some(old), Some(new)) = (old?, new?) else { return Ok(Ending::Findings) };
-    let forms = [(forms[0], old), (forms[1], new)];
+    let Some(Prepared { rows, pairs }) = prepared(forms, &jobs, args, reporter)? else { return Ok(Ending::Findings) };
     let kinds: Mutex<BTreeMap<String, Kind>> = Mutex::default();
     let (compared, differs) = (AtomicUsize::new(0), AtomicBool::new(false));
     let items: Vec<(usize, &PathBuf)> = jobs.iter().enumerate().collect();
@@ -55,7 +55,7 @@ pub fn run(
         |(_, job)| files::name(job),
         "job",
         |&(at, job)| {
-            let Some([old, new]) = printed_by(&forms, job, args, reporter)? else {
+            let Some([old, new]) = printed_by(&pairs[rows[at]], job, args, reporter)? else {
                 return Ok((String::new(), Ending::Findings));
             };
             let difference = match difference(args, &old, &new, colour, reporter)? {
@@ -89,6 +89,40 @@ pub fn run(
         output::standard_output(|out| out.write_all(text.as_bytes()))?;
     }
     Ok(if ending == Ending::Clean && differs.into_inner() { Ending::Findings } else { ending })
+}
+
+/// Both forms, prepared for a job.
+type Pair<'a> = [(&'a Path, prepare::Prepared); 2];
+
+/// Both forms, prepared once for each postform.toml of the jobs.
+struct Prepared<'a> {
+    /// For each job, the index of its pair.
+    rows: Vec<usize>,
+    pairs: Vec<Pair<'a>>,
+}
+
+/// Prepares both forms for all jobs. `None`: a form has errors, which have been shown.
+fn prepared<'a>(
+    forms: [&'a Path; 2],
+    jobs: &[PathBuf],
+    args: &DiffArgs,
+    reporter: &Reporter,
+) -> Result<Option<Prepared<'a>>, String> {
+    let mut by_config: HashMap<Option<PathBuf>, usize> = HashMap::new();
+    let mut prepared = Prepared { rows: Vec::with_capacity(jobs.len()), pairs: Vec::new() };
+    for job in jobs {
+        let row = match by_config.entry(Config::near(job)?.path) {
+            Entry::Occupied(entry) => *entry.get(),
+            Entry::Vacant(entry) => {
+                let [old, new] = forms.map(|form| prepare::prepare(form, &args.options, job, reporter));
+                let (Some(old), Some(new)) = (old?, new?) else { return Ok(None) };
+                prepared.pairs.push([(forms[0], old), (forms[1], new)]);
+                *entry.insert(prepared.pairs.len() - 1)
+            }
+        };
+        prepared.rows.push(row);
+    }
+    Ok(Some(prepared))
 }
 
 /// All kinds of differences as text, the most common first, and the share of changed programs among the compared

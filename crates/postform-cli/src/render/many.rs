@@ -114,13 +114,42 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
                 part: program.part,
                 number: program.number,
             };
-            print::print(&task, &forms.ready[program.ready], args, &reporter).map(|ending| (String::new(), ending))
+            let ending =
+                while_unchanged(output, newest, || print::print(&task, &forms.ready[program.ready], args, &reporter))?;
+            Ok((String::new(), ending))
         }
         Err(refused) => {
             say(&refused.messages);
             Ok((String::new(), refused.ending))
         }
     })
+}
+
+/// Prints a program. The form and the other files that all programs share are read once, so it is an error if one of them
+/// has changed since: the program would be newer than the form, but not of this form.
+fn while_unchanged(
+    output: &Path,
+    newest: Option<SystemTime>,
+    print: impl FnOnce() -> Result<Ending, String>,
+) -> Result<Ending, String> {
+    let unchanged = || match inputs::newest() == newest {
+        true => Ok(()),
+        false => Err("error: a form or another file that was read at the start has changed since\n  help: print the \
+                      programs again, for example with --changed"
+            .to_owned()),
+    };
+    unchanged()?;
+    let ending = print()?;
+    if ending == Ending::Clean
+        && let Err(why) = unchanged()
+    {
+        // not newer than the form, so that `--changed` prints it again
+        let old = fs::File::options().write(true).open(output);
+        let set = old.and_then(|file| file.set_modified(newest.unwrap_or(SystemTime::UNIX_EPOCH)));
+        set.map_err(|error| io_message("write", output, &error))?;
+        return Err(why);
+    }
+    Ok(ending)
 }
 
 /// The forms of the jobs. Each form is prepared only once.

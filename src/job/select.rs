@@ -285,10 +285,9 @@ impl<'s> Selecting<'s> {
             Event::Home | Event::Thread(_) | Event::Edm(_) => self.forgets(self.linear),
             Event::Tilt(axis) => self.held.tilt = *axis,
             Event::Text(text) => self.held.text(text, self.control, self.takes),
-            Event::Work(work) => {
-                if self.held.work.replace(*work) != Some(*work) {
-                    self.forgets(self.linear);
-                }
+            Event::Work(work) if self.held.work != Some(*work) => {
+                self.held.work = Some(*work);
+                self.forgets(self.linear);
             }
             Event::Spindle(spindle) => self.held.spindle(*spindle),
             Event::Coolant(coolant) => self.held.coolant = Some(*coolant),

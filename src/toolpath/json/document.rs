@@ -100,10 +100,8 @@ impl<'s> Job<'_, 's> {
     }
 
     fn misplaced<E: serde::de::Error>(&self, list: &str, object: &str, key: &str) -> E {
-        self.context.fail(Diag::new(Code::PJ005, format!("`{key}` comes after `{list}`")).help(format!(
-            "make `{list}` the last key of {object}, or give the job as a file: in a stream the \
-                    keys after `{list}` come too late"
-        )))
+        let help = format!("make `{list}` the last key of {object}, or give a job from standard input as a file");
+        self.context.fail(Diag::new(Code::PJ005, format!("`{key}` comes after `{list}`")).help(help))
     }
 
     /// Passes on plain items from the buffered text, up to the first item that is not plain. serde_json has already

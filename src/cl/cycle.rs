@@ -41,8 +41,7 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
         },
         _ if dialect == Dialect::Autodesk => {
             let (words, heights) = autodesk(words)?;
-            let (coded, rest) = cycle_type(&words)?;
-            begin(coded, rest, true, state)?;
+            begin_in_gener(&words, state)?;
             let shifted = |height| state.motion.shift.of([0.0, 0.0, height])[2];
             let heights =
                 Heights { clearance: shifted(heights.clearance), retract: shifted(heights.retract), ..heights };
@@ -53,21 +52,24 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
         }
         _ if dialect == Dialect::Camplete => {
             let Converted { words, returns } = of_camplete(words, state)?;
-            let (coded, rest) = cycle_type(&words)?;
-            begin(coded, rest, true, state)?;
+            begin_in_gener(&words, state)?;
             state.cycle.returns = state.cycle.return_mode.over(Some(returns));
             Ok(())
         }
         _ => {
-            let gener = in_gener_words(words, dialect)?;
-            let (coded, rest) = cycle_type(&gener)?;
-            begin(coded, rest, true, state)?;
+            begin_in_gener(&in_gener_words(words, dialect)?, state)?;
             if returns_to_start(words, dialect) {
                 state.cycle.returns = state.cycle.return_mode.over(Some(CodedReturn::Start));
             }
             Ok(())
         }
     }
+}
+
+/// Begins a cycle that is given in the words of GENER.
+fn begin_in_gener(words: &[Word], state: &mut State<'_>) -> Done {
+    let (coded, rest) = cycle_type(words)?;
+    begin(coded, rest, true, state)
 }
 
 /// Converts a cycle of Autodesk's post for CAMplete. The points of a cycle have no tool axis.

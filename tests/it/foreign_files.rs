@@ -3,7 +3,7 @@
 use crate::support::folder::{Folder, err};
 
 /// A file: its name, its first bytes, and what the message must contain.
-const FILES: [(&str, &[u8], &[&str]); 16] = [
+const FILES: [(&str, &[u8], &[&str]); 18] = [
     ("part", b"%PDF-1.7\n%\xe2\xe3\n1 0 obj\n", &["the format of part is unknown: it begins with `%PDF-1.7`", "PDF"]),
     ("part.nc", b"%PDF-1.7\nGOTO/1,2,3\n", &["part.nc is not an NC program: it begins with `%PDF-1.7`", "PDF"]),
     ("part.json", b"%PDF-1.7\n", &["part.json is not a JSON document", "PDF", "`--from json`"]),
@@ -14,8 +14,14 @@ const FILES: [(&str, &[u8], &[&str]); 16] = [
         &["not a Mastercam NCI file", "`\\x89PNG\\r\\n\\x1a\\n\\x00", "PNG"],
     ),
     ("part.FCStd", b"\xff\xd8\xff\xe0\0\x10JFIF\0", &["not a FreeCAD document", "JPEG"]),
-    ("part.jsonl", b"\x1f\x8b\x08\0\0\0\0\0", &["part.jsonl is not JSON Lines", "GZ (gzip)"]),
+    ("part.jsonl", b"\x1f\x8b\x08\0\0\0\0\0", &["part.jsonl is not JSON Lines", "GZ (gzip)", "end its name with .gz"]),
     ("part.tap", b"MZ\x90\0\x03\0", &["part.tap is not an NC program", "MS-DOS Executable"]),
+    (
+        "zip.nc",
+        b"PK\x03\x04\x14\0",
+        &["zip.nc is not an NC program", "seems to be a FreeCAD document or another zip archive"],
+    ),
+    ("part", b"\xa0\xa0\xa0{", &["the format of part is unknown: it begins with `\\xa0\\xa0\\xa0{`"]),
     ("part.ngc", b"G\x000\0 \0", &["PN014"]),
     ("part.mpf", b"\xff\xfeG\x000\0", &["PN001", "the program is UTF-16", "save it as plain text"]),
     (
@@ -55,7 +61,11 @@ fn a_file_that_is_no_job_is_refused_with_what_it_seems_to_be() {
 #[test]
 fn commands_for_programs_refuse_other_files() {
     let folder = Folder::new("foreign-programs");
-    for (name, bytes) in [("part.pdf", &b"%PDF-1.7\n"[..]), ("part.nc", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")] {
+    for (name, bytes) in [
+        ("part.pdf", &b"%PDF-1.7\n"[..]),
+        ("part.nc", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"),
+        ("part.FCStd", b"PK\x03\x04\x14\0"),
+    ] {
         folder.write(name, bytes);
         let output = folder.run(&["simulate", "--control", "haas", name]);
         let message = err(&output);

@@ -15,7 +15,7 @@ use postform::{Format, Job};
 use super::args::ReadArgs;
 pub use super::destination::folder;
 use super::inputs;
-use super::job_format::{foreign, job_format, shown, start};
+use super::job_format::{check_program, job_format, start};
 use super::packed::{unpacked, unpacked_name};
 use super::spool::Spool;
 
@@ -61,20 +61,8 @@ pub fn open_program(path: &Path) -> Result<File, String> {
     let fail = |error: io::Error| io_message("read", path, &error);
     file.by_ref().take(Format::LOOKED_AT as u64).read_to_end(&mut head).map_err(fail)?;
     file.rewind().map_err(fail)?;
-    if matches!(Format::of_content(&head), Some(Format::Json | Format::JsonLines)) {
-        let name = name(path);
-        return Err(format!(
-            "error: {name} is a job, not an NC program\n  help: `postform render {name} --form FORM` prints the program of a job"
-        ));
-    }
-    match foreign(&head) {
-        Some(what) if Format::of_content(&head).is_none() => Err(format!(
-            "error: {} is not an NC program: it begins with `{}` and seems to be {what}\n  help: give an NC program",
-            name(path),
-            shown(&head)
-        )),
-        _ => Ok(file),
-    }
+    check_program(path, &head)?;
+    Ok(file)
 }
 
 /// The bytes of a regular file. A pipe or a device, which may never end, is refused.

@@ -76,20 +76,43 @@ fn refuse_folder(path: &Path) -> Result<(), String> {
 
 /// The format of the file name, if the first bytes are not those of another kind of file.
 fn agreed(format: Format, path: &Path, start: &[u8]) -> Result<Format, String> {
-    let (seems, help) = match (Format::of_content(start), foreign(start)) {
-        (None, Some(what)) => {
-            (what, format!("give a job; if this file is one, name its format with `--from {}`", format.name()))
-        }
-        (Some(other), _) if group(other) != group(format) => {
-            (described(other), format!("name the format with `--from {}`", other.name()))
-        }
-        _ => return Ok(format),
+    let Some((seems, other)) = other_kind(format, start) else { return Ok(format) };
+    let help = match other {
+        Some(other) => format!("name the format with `--from {}`", other.name()),
+        None if is_packed(start) => PACKED.to_owned(),
+        None => format!("give a job; if this file is one, name its format with `--from {}`", format.name()),
     };
-    let (name, what) = (name(path), described(format));
-    Err(format!(
-        "error: {name} is not {what}: it begins with `{}` and seems to be {seems}\n  help: {help}",
-        shown(start)
-    ))
+    Err(not_of(format, path, start, &seems, &help))
+}
+
+/// Checks the first bytes of an NC program.
+///
+/// # Errors
+/// A message: the bytes are those of a job or of another kind of file.
+pub fn check_program(path: &Path, start: &[u8]) -> Result<(), String> {
+    let name = name(path);
+    match other_kind(Format::Nc, start) {
+        None => Ok(()),
+        Some((_, Some(Format::Json | Format::JsonLines | Format::Nci))) => Err(format!(
+            "error: {name} is a job, not an NC program\n  help: `postform render {name} --form FORM` prints the program of a job"
+        )),
+        Some((seems, _)) => Err(not_of(Format::Nc, path, start, &seems, "give an NC program")),
+    }
+}
+
+/// What the bytes of a file in a format seem to be instead, and the other format if they seem to be a job.
+fn other_kind(format: Format, start: &[u8]) -> Option<(String, Option<Format>)> {
+    match Format::of_content(start) {
+        Some(other) if group(other) == group(format) => None,
+        Some(Format::Freecad) => Some(("a FreeCAD document or another zip archive".to_owned(), Some(Format::Freecad))),
+        Some(other) => Some((described(other), Some(other))),
+        None => foreign(start).map(|what| (what, None)),
+    }
+}
+
+fn not_of(format: Format, path: &Path, start: &[u8], seems: &str, help: &str) -> String {
+    let (name, what, begins) = (name(path), described(format), shown(start));
+    format!("error: {name} is not {what}: it begins with `{begins}` and seems to be {seems}\n  help: {help}")
 }
 
 /// Formats of one group can't be told apart by all of their first bytes.
@@ -101,15 +124,28 @@ fn group(format: Format) -> Format {
     }
 }
 
+const PACKED: &str = "if this file is a compressed job, end its name with .gz";
+
+fn is_packed(start: &[u8]) -> bool {
+    FileFormat::from_bytes(start) == FileFormat::Gzip
+}
+
 /// The format by the first bytes only. Standard input without any text is an empty JSON job.
 fn unnamed(path: &Path, start: &[u8]) -> Result<Format, String> {
     let is_empty = start.trim_ascii().is_empty();
     let empty = (path == Path::new("-") && is_empty).then_some(Format::Json);
     Format::of_content(start).or(empty).ok_or_else(|| {
         let seems = foreign(start).map(|what| format!(" and seems to be {what}")).unwrap_or_default();
-        let begins = if is_empty { String::new() } else { format!(": it begins with `{}`{seems}", shown(start)) };
+        let begins = match is_empty {
+            true => String::new(),
+            false => format!(": it begins with `{}`{seems}", shown(start)),
+        };
         let known = Format::ALL.map(Format::name).join(", ");
-        format!("error: the format of {} is unknown{begins}\n  help: give a job, or name its format with --from: one of {known}", name(path))
+        let help = match is_packed(start) {
+            true => PACKED.to_owned(),
+            false => format!("give a job, or name its format with --from: one of {known}"),
+        };
+        format!("error: the format of {} is unknown{begins}\n  help: {help}", name(path))
     })
 }
 
@@ -123,7 +159,7 @@ fn described(format: Format) -> String {
 
 /// What a file is that is neither a job nor a program, by its first bytes, such as `a file in the format PDF (Portable
 /// Document Format)`.
-pub fn foreign(start: &[u8]) -> Option<String> {
+fn foreign(start: &[u8]) -> Option<String> {
     let found = FileFormat::from_bytes(start);
     let is_known = match is_text(start) {
         true => TEXTS.contains(&found),
@@ -141,13 +177,14 @@ fn is_text(start: &[u8]) -> bool {
 }
 
 /// The first bytes of a file in a message: the first line of a text.
-pub fn shown(start: &[u8]) -> String {
+fn shown(start: &[u8]) -> String {
     let start = start.trim_ascii_start();
-    if !is_text(start) {
-        return start[..start.len().min(SHOWN)].escape_ascii().to_string();
+    let shown = &start[..start.len().min(SHOWN)];
+    let line = shown.split(|byte| b"\r\n".contains(byte)).next().unwrap_or_default();
+    match str::from_utf8(line) {
+        Ok(line) if is_text(start) => escaped(line),
+        _ => shown.escape_ascii().to_string(),
     }
-    let line = start.split(|byte| b"\r\n".contains(byte)).next().unwrap_or_default();
-    escaped(&String::from_utf8_lossy(&line[..line.len().min(SHOWN)]))
 }
 
 /// The first bytes of a file or of standard input, in which they stay; none of another input that is not seekable.

@@ -77,6 +77,6 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
 }
 
 /// The value of `[jobfile]`: the name of the job's file, without its folder. Standard input has no name.
-pub fn job_file(job: &Path) -> Option<String> {
+fn job_file(job: &Path) -> Option<String> {
     job.file_name().filter(|_| job != Path::new("-")).map(|name| name.to_string_lossy().into_owned())
 }

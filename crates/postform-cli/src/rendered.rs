@@ -10,7 +10,7 @@ use postform::{ErrorKind, Job, Options};
 
 use super::Ending;
 use super::files::io_message;
-use super::prepare::{Prepared, job_file};
+use super::prepare::Prepared;
 use super::report::{Reporter, place_in_jobs, stopped};
 use super::say::say;
 use super::spool::Spool;
@@ -29,7 +29,6 @@ pub fn rendered(
     let mut lines = Vec::new();
     let mut options: Options = prepared.options.clone();
     options.trace = trace;
-    options.job_file = jobs.first().and_then(|job| job_file(job));
     let printed = prepared.post.render_parts(job.again(), &options, &mut |part| {
         lines.extend_from_slice(part.trace);
         file.write_all(part.text)

@@ -118,8 +118,9 @@ pub fn printed_by<const N: usize>(
     let mut input = files::job(job, &args.read, true)?;
     let mut sides = Vec::with_capacity(N);
     for (form, prepared) in forms {
-        let Ok((file, lines)) = rendered(&mut input, &[job], prepared, true, reporter)? else { return Ok(None) };
-        sides.push(side(form, file, lines, prepared)?);
+        let prepared = prepared.for_job(job);
+        let Ok((file, lines)) = rendered(&mut input, &[job], &prepared, true, reporter)? else { return Ok(None) };
+        sides.push(side(form, file, lines, &prepared)?);
     }
     Ok(sides.try_into().ok())
 }

@@ -13,7 +13,6 @@ use super::super::args::RenderArgs;
 use super::super::beside::{self, Printed};
 use super::super::files::{self, io_message};
 use super::super::machine;
-use super::super::prepare::job_file;
 use super::super::progress::Progress;
 use super::super::report::{Reporter, names, place_in_jobs, stopped};
 use super::super::say::{message, say};
@@ -46,6 +45,7 @@ pub struct Task<'a> {
 /// A message: a file can't be read or written, or the options make no sense together.
 pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Reporter) -> Result<Ending, String> {
     let Ready { prepared, machine, .. } = ready;
+    let prepared = &prepared.for_job(task.jobs[0]);
     if machine.is_some() && args.stream {
         return Err("error: --stream writes the program before postform can check that it fits into the machine\n  \
                     help: render without --stream"
@@ -69,7 +69,6 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         Output::open((task.output, task.name), args.trace.as_deref(), args.stream, (prepared.post.files(), task.jobs))?;
     let mut options = prepared.options.clone();
     options.program = task.number.or(options.program);
-    options.job_file = task.jobs.first().and_then(|job| job_file(job));
     options.trace = args.trace.is_some();
     options.one_pass = args.stream;
     let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None, prepared.config.control));

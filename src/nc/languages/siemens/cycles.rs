@@ -51,6 +51,8 @@ const AXIS: Argument = Only("AXN", &[0.0, 3.0]);
 const TURNS: Argument = Only("SDIR", &[0.0, 3.0, 4.0]);
 /// The rotation of the spindle after a tap: M3, M4 or M5.
 const AFTER: Argument = Only("SDAC", &[0.0, 3.0, 4.0, 5.0]);
+/// The technology of a tap: exact stop, precontrol and spindle control.
+const TECHNO: Argument = Unsimulated("TECHNO");
 
 /// For each cycle: its number, and its arguments after RTP, RFP, SDIS, DP and DPR, which all cycles have.
 const CYCLES: [(u16, &[Argument]); 10] = [
@@ -59,24 +61,7 @@ const CYCLES: [(u16, &[Argument]); 10] = [
     // FDEP, FDPR, DAM, DTB, DTS, FRF, VARI, AXN, MDEP, VRT, DTD, DIS1
     (83, &[Used, Used, Used, Used, Used, Used, Only("VARI", &[0.0, 1.0]), AXIS, Used, Used, Used, Used]),
     // DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PTAB, TECHNO, VARI, DAM, VRT
-    (
-        84,
-        &[
-            Used,
-            AFTER,
-            Used,
-            Used,
-            Used,
-            Used,
-            Used,
-            AXIS,
-            Used,
-            Unsimulated("TECHNO"),
-            Only("VARI", &[0.0, 1.0, 2.0]),
-            Used,
-            Used,
-        ],
-    ),
+    (84, &[Used, AFTER, Used, Used, Used, Used, Used, AXIS, Used, TECHNO, Only("VARI", &[0.0, 1.0, 2.0]), Used, Used]),
     // DTB, SDR, SDAC, ENC, MPIT, PIT, AXN
     (840, &[Used, Only("SDR", &[0.0, 3.0, 4.0]), AFTER, Only("ENC", &[0.0, 1.0]), Used, Used, AXIS]),
     // DTB, FFR, RFF

@@ -1,6 +1,6 @@
 // The page of `postform watch` in a real browser: what is typed, clicked and pressed, and what is then shown.
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, unlinkSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, renameSync, unlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { equal, ok, postform, ready, root, run, test, watch } from "./harness.mjs";
@@ -366,7 +366,9 @@ test("a word that is typed in full is itself, and Esc leaves the form only twice
 test("a job that can't be printed says what, where and what helps", async ({ open }) => {
   const { page, path } = await open();
   const job = readFileSync(join(path, "bracket.json"), "utf8");
-  writeFileSync(join(path, "bracket.json"), job.replace('"tool": 1', '"tool": 77'));
+  // replaced as a whole: the server must not read the file between its truncation and its text
+  writeFileSync(join(path, "bracket.new"), job.replace('"tool": 1', '"tool": 77'));
+  renameSync(join(path, "bracket.new"), join(path, "bracket.json"));
   await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("no program"), null, { timeout: 20_000 });
   const note = await page.locator(".note").innerText();
   await ok(note.includes("PJ006") && note.includes("operations[0]") && note.includes("add the tool to"), note);

@@ -3,12 +3,12 @@ import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { createWriteStream, existsSync, mkdtempSync, copyFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { delimiter, join } from "node:path";
+import { delimiter, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 export const root = fileURLToPath(new URL("../..", import.meta.url));
-export const postform = process.env.POSTFORM ?? join(root, "target/debug/postform");
+export const postform = resolve(process.env.POSTFORM ?? join(root, "target/debug/postform"));
 
 function installed() {
   const names = ["chromium", "chromium-headless-shell", "google-chrome", "chrome"];

@@ -296,7 +296,8 @@ impl Want {
         self.set(VarId::Coolantoff, ends);
         if first != before {
             // a new kind turns off the previous kind only if neither has its own "off" code
-            let stays = ends != off || codes(first, settings).is_some_and(|codes| codes.own_off.is_some());
+            let has_own_off = |kind| codes(kind, settings).is_some_and(|codes| codes.own_off.is_some());
+            let stays = has_own_off(before) || has_own_off(first);
             let ended = stays && before != Coolant::OFF && code != ends && !coolant.holds(before);
             self.ends_coolant = Some(ends).filter(|_| ended);
         }

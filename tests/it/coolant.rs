@@ -220,6 +220,14 @@ fn coolant_that_another_kind_does_not_end_is_turned_off() {
     assert_eq!(print(path), ["M8", "M9", "M88", "M89"]);
     // air has no off code, so it replaces flood; flood as a second kind stays on
     assert_eq!(print(&path.replace("through", "air")), ["M8", "M12", "M9"]);
+    // mist with the off code of all coolant is turned off before flood, and flood before mist
+    let mist = |kind: &str| {
+        let path =
+            "{\"line\":[1,0,0]},{\"coolant\":\"flood\"},{\"line\":[2,0,0]},{\"coolant\":\"mist\"},{\"line\":[3,0,0]}";
+        codes(&form(kind, "M[cool]"), &job(&[(1, "mist", path)]))
+    };
+    assert_eq!(mist("CoolantKind mist M7 M9"), ["M7", "M9", "M8", "M9", "M7"]);
+    assert_eq!(mist(""), ["M7", "M8", "M7"]);
     let both = path.replace("\"through\"", "[\"through\",\"flood\"]");
     assert_eq!(print(&both), ["M8", "M88", "M8", "M9", "M89"]);
 }

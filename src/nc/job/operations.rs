@@ -29,6 +29,7 @@ impl Reader<'_> {
                 name: self.tool_name.clone(),
                 ..Tool::default()
             }),
+            reloads: false,
             spindle: Some(wanted.spindle()),
             coolant: Some(wanted.coolant.unwrap_or(Coolant::OFF)),
             work: wanted.work,

@@ -249,6 +249,7 @@ impl<'a> Turner<'a> {
         let change = ToolChange {
             name: None,
             tool: Some(Tool { number, ..Tool::default() }),
+            reloads: false,
             spindle: Some(self.wanted.spindle()),
             coolant: Some(self.wanted.coolant.unwrap_or(Coolant::OFF)),
             work: self.wanted.work,

@@ -95,15 +95,19 @@ impl Said {
         let begins = kinds.iter().any(|kind| kind.on == code);
         let ends = kinds.iter().any(|kind| kind.off == Some(code));
         let own = |cool: f64| kinds.iter().any(|kind| kind.on == cool && kind.off == Some(code));
-        let off = Some(shape.program.settings.coolant[1]);
-        let ends_last = self.conditions.get(VarId::Cool) == off && want.get(VarId::Cool) == Some(code);
+        let [on, off, mist] = shape.program.settings.coolant;
+        let ends_last = self.conditions.get(VarId::Cool) == Some(off) && want.get(VarId::Cool) == Some(code);
         // a code that turns off one kind leaves another kind on
         if begins || ends && (ends_last || self.conditions.get(VarId::Cool).is_some_and(own)) {
             self.coolant_said(code, line, want, shape);
             self.switched = true;
         }
-        if begins || ends {
-            self.coolant_ended = Some(code).filter(|_| !begins);
+        // the job changed the kind of coolant, and the form has already turned off the old kind
+        let is_needed = self.coolant_ended == want.ends_coolant;
+        if begins || [on, mist].contains(&code) && !is_needed {
+            self.coolant_ended = None;
+        } else if ends {
+            self.coolant_ended = Some(code);
         }
     }
 

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::super::cursor::{Cursor, capitals};
 use super::super::formula::{GENERAL, Rules, formula};
-use super::cycles::{Cycle, check_arguments};
+use super::arguments::check_arguments;
+use super::cycles::Cycle;
 use super::ways::Siemens;
 use crate::control::Meaning;
 use crate::diag::Code;

@@ -1,7 +1,7 @@
 //! The drilling cycles of 840D and 828D, CYCLE81 to CYCLE89 and CYCLE840, as in the Programming Guide Cycles, section 2.1.
 
-use self::Argument::{Only, Unsimulated, Used};
 use super::super::strokes::{depths, dwell};
+use super::arguments::{self, Argument, LEVELS, check_arguments};
 use crate::control::{Code as Name, Motions};
 use crate::diag::Code;
 use crate::nc::action::{Cycle as Drill, Drilling, Heights, Rotation};
@@ -34,48 +34,6 @@ const COARSE: [(f64, f64); 21] = [
     (48.0, 5.0),
 ];
 
-/// An argument of a cycle.
-#[derive(Clone, Copy)]
-pub enum Argument {
-    /// The cycle uses the value.
-    Used,
-    /// No move depends on the value, so postform does not simulate the argument. The text is its name.
-    Unsimulated(&'static str),
-    /// The cycle is run only if the argument has one of these values. An argument that is left out is 0.
-    Only(&'static str, &'static [f64]),
-}
-
-/// AXN, the axis along which the cycle drills: 0 and 3 are the axis perpendicular to the plane.
-const AXIS: Argument = Only("AXN", &[0.0, 3.0]);
-/// The rotation of the spindle for a bore: M3 or M4.
-const TURNS: Argument = Only("SDIR", &[0.0, 3.0, 4.0]);
-/// The rotation of the spindle after a tap: M3, M4 or M5.
-const AFTER: Argument = Only("SDAC", &[0.0, 3.0, 4.0, 5.0]);
-/// The technology of a tap: exact stop, precontrol and spindle control.
-const TECHNO: Argument = Unsimulated("TECHNO");
-
-/// For each cycle: its number, and its arguments after RTP, RFP, SDIS, DP and DPR, which all cycles have.
-const CYCLES: [(u16, &[Argument]); 10] = [
-    (81, &[Used]),
-    (82, &[Used]),
-    // FDEP, FDPR, DAM, DTB, DTS, FRF, VARI, AXN, MDEP, VRT, DTD, DIS1
-    (83, &[Used, Used, Used, Used, Used, Used, Only("VARI", &[0.0, 1.0]), AXIS, Used, Used, Used, Used]),
-    // DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PTAB, TECHNO, VARI, DAM, VRT
-    (84, &[Used, AFTER, Used, Used, Used, Used, Used, AXIS, Used, TECHNO, Only("VARI", &[0.0, 1.0, 2.0]), Used, Used]),
-    // DTB, SDR, SDAC, ENC, MPIT, PIT, AXN
-    (840, &[Used, Only("SDR", &[0.0, 3.0, 4.0]), AFTER, Only("ENC", &[0.0, 1.0]), Used, Used, AXIS]),
-    // DTB, FFR, RFF
-    (85, &[Used, Used, Used]),
-    // DTB, SDIR, RPA, RPO, RPAP, POSS
-    (86, &[Used, TURNS, Used, Used, Used, Used]),
-    (87, &[TURNS]),
-    (88, &[Used, TURNS]),
-    (89, &[Used]),
-];
-
-/// The number of arguments that all cycles have.
-const LEVELS: usize = 5;
-
 /// A call of a drilling cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
@@ -83,27 +41,6 @@ pub struct Cycle {
     pub number: u16,
     /// The arguments in their order. An argument that is left out is `None`.
     pub arguments: Vec<Option<f64>>,
-}
-
-/// Checks the arguments of a call from the index `first` on. Arguments that are not in `own` are not used by postform.
-///
-/// # Errors
-/// An argument is not used, and has another value than 0.
-pub fn check_arguments(call: &str, arguments: &[Option<f64>], first: usize, own: &[Argument]) -> Done {
-    for (at, value) in arguments.iter().enumerate().skip(first) {
-        let value = value.unwrap_or(0.0);
-        let (name, values) = match own.get(at - first) {
-            Some(Used | Unsimulated(_)) => continue,
-            Some(Only(name, values)) => (format!("{name} {value}"), *values),
-            None => (format!("{value} as argument {}", at + 1), &[0.0][..]),
-        };
-        if !values.contains(&value) {
-            let values: Vec<String> = values.iter().map(f64::to_string).collect();
-            let help = format!("write {} for this argument, or leave it out", values.join(" or "));
-            return refuse(Code::PN016, format!("{call} with {name} is not supported"), help);
-        }
-    }
-    Ok(())
 }
 
 /// The heights that all cycles have.
@@ -118,14 +55,9 @@ struct Levels {
 }
 
 impl Cycle {
-    /// The arguments of a cycle after RTP, RFP, SDIS, DP and DPR. `None`: the cycle is not supported.
-    fn own(number: u16) -> Option<&'static [Argument]> {
-        CYCLES.iter().find(|(own, _)| *own == number).map(|(_, arguments)| *arguments)
-    }
-
     /// Whether the cycle with this number is supported.
     pub fn is_known(number: u16) -> bool {
-        Cycle::own(number).is_some()
+        arguments::of_cycle(number).is_some()
     }
 
     /// A call of a cycle.
@@ -133,15 +65,17 @@ impl Cycle {
     /// # Errors
     /// The cycle is not run with one of its arguments.
     pub fn new(number: u16, arguments: Vec<Option<f64>>) -> Done<Cycle> {
-        check_arguments(&format!("CYCLE{number}"), &arguments, LEVELS, Cycle::own(number).unwrap_or_default())?;
+        let call = format!("CYCLE{number}");
+        check_arguments(&call, &arguments[..arguments.len().min(LEVELS.len())], 0, &LEVELS)?;
+        check_arguments(&call, &arguments, LEVELS.len(), arguments::of_cycle(number).unwrap_or_default())?;
         Ok(Cycle { number, arguments })
     }
 
     /// The arguments that postform does not simulate, with their values, unless the value is 0.
     pub fn not_simulated(&self) -> impl Iterator<Item = String> {
-        let own = Cycle::own(self.number).unwrap_or_default();
-        self.arguments.iter().skip(LEVELS).zip(own).filter_map(|(value, argument)| match (argument, value) {
-            (Unsimulated(name), Some(value)) if *value != 0.0 => Some(format!("{name} {value}")),
+        let own = arguments::of_cycle(self.number).unwrap_or_default();
+        self.arguments.iter().skip(LEVELS.len()).zip(own).filter_map(|(value, argument)| match (argument, value) {
+            (Argument::Unsimulated(name), Some(value)) if *value != 0.0 => Some(format!("{name} {value}")),
             _ => None,
         })
     }
@@ -181,7 +115,7 @@ impl Cycle {
                 );
             }
         };
-        let clearance = self.get(2).abs();
+        let clearance = self.get(2);
         if bottom > reference || back < reference {
             let message = format!("{name} goes from {reference} to {bottom} and back to {back}");
             return refuse(Code::PN011, message, "write a depth below RFP, and a retract plane above it");
@@ -324,7 +258,7 @@ impl Cycle {
             }
             (None, None) => return refuse(Code::PN007, "CYCLE83 without its first depth", "write FDEP or FDPR"),
         };
-        let (less, least) = (self.get(7), self.get(13).abs());
+        let (less, least) = (self.get(7), self.get(13));
         let next = |stroke: f64, left: f64| {
             let shorter = match less {
                 0.0 => stroke,

@@ -3,6 +3,7 @@
 //!
 //! Sources: SINUMERIK 840D/810D Programming Guide (fundamentals, job planning, cycles), and public programs.
 
+mod arguments;
 mod block;
 mod checks;
 mod cycles;

@@ -306,6 +306,7 @@ impl<'s> Job<'s> {
             tool,
             spindle: None,
             coolant: self.tools.coolant,
+            reloads: false,
             work: None,
             feed: None,
             plunge: None,

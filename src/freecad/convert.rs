@@ -66,6 +66,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
                 let change = ToolChange {
                     name: Some(step.label.clone()),
                     tool: Some(operation.controller.tool.clone()),
+                    reloads: false,
                     spindle: Some(Spindle { speed: spindle.0, turn: Some(spindle.1), ..Spindle::default() }),
                     coolant: Some(operation.coolant),
                     work: Some(*work),

@@ -69,9 +69,8 @@ impl Held {
 
     /// Keeps the values that stay in force after the operation. Spindle and coolant end at the change to another tool.
     pub fn operation(&mut self, change: &ToolChange) {
-        let tool = change.tool.as_ref().map(|tool| tool.number);
-        if tool.is_some() && tool != self.tool {
-            self.tool = tool;
+        if let Some(tool) = change.changes_to(self.tool) {
+            self.tool = Some(tool.number);
             (self.spindle, self.coolant, self.until_tool) = (None, None, None);
         }
         if let Some(own) = change.spindle {

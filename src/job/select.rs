@@ -3,21 +3,20 @@
 //!
 //! Some values of a left-out operation stay in force: work offset, tool axis and set values, and spindle and coolant if the
 //! tool stays the same. These values are added to the next operation that is selected. That operation starts at the
-//! position that the tool would have reached. If a state of a left-out operation can't be added, the operation after it is
-//! refused.
+//! position that the tool would have reached. It begins with a tool change, even if its tool is in the spindle: the tool is
+//! retracted from the end of the last operation in the program. If a state of a left-out operation can't be added, the
+//! operation after it is refused.
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-use super::held::{Held, UPRIGHT, is_variable, missing_of_spindle};
+use super::held::{Held, UPRIGHT, is_variable};
 use super::left_out_text::{Left, Other};
 use super::subs::Subs;
 use crate::control::Control;
 use crate::diag::{Code, Diag};
-use crate::lang::{Coolant, Machine};
-use crate::toolpath::{
-    Axes, Call, Event, First, Flow, Hold, Hole, Place, Sink, Spindle, Start, Stop, ToolChange, flow,
-};
+use crate::lang::Machine;
+use crate::toolpath::{Axes, Call, Event, First, Flow, Hold, Hole, Place, Sink, Start, Stop, ToolChange, flow};
 
 /// The selected operations, by their tools, their numbers or their work offsets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -81,16 +80,6 @@ impl Progress {
     }
 }
 
-/// The state at the end of the last selected operation.
-#[derive(Default)]
-struct Passed {
-    tool: Option<f64>,
-    spindle: Spindle,
-    at: Axes,
-    /// Whether another tool was used since then.
-    reloads: bool,
-}
-
 /// Passes only the selected operations on.
 pub(super) struct Selecting<'s> {
     /// Holds a tool change back until its first move is filled in.
@@ -111,11 +100,12 @@ pub(super) struct Selecting<'s> {
     /// operation may call it.
     subs: Subs,
     held: Held,
-    passed: Passed,
     /// The linear axes of the machine, as bits.
     linear: u8,
     /// The axis along which the tool enters a hole, as a bit.
     depth: u8,
+    /// The position at the end of the last selected operation.
+    passed_at: Axes,
     /// The tool axis of the events that were passed on.
     passed_tilt: [f64; 3],
     /// The position, with only the axes that are known.
@@ -141,9 +131,9 @@ impl<'s> Selecting<'s> {
             name: None,
             subs: Subs::default(),
             held: Held::default(),
-            passed: Passed::default(),
             linear: 0b111,
             depth: 0b100,
+            passed_at: Axes::default(),
             passed_tilt: UPRIGHT,
             at: Axes::default(),
             turned: 0,
@@ -160,16 +150,13 @@ impl<'s> Selecting<'s> {
             self.tools.push(tool);
         }
         if self.takes {
-            let spindle = self.held.spindle.unwrap_or_default();
-            let at = if self.fills { self.passed.at } else { self.at };
-            self.passed = Passed { tool: self.held.tool, spindle, at, reloads: false };
+            self.passed_at = if self.fills { self.passed_at } else { self.at };
         }
         let frame = (self.held.tool, self.held.work);
         self.held.operation(change);
         if frame != (self.held.tool, self.held.work) {
             self.forgets(self.linear);
         }
-        self.passed.reloads |= self.held.tool != self.passed.tool;
         self.name.clone_from(&change.name);
         self.takes = self.progress.takes(self.selection, tool, self.held.work);
         if !self.takes {
@@ -188,21 +175,13 @@ impl<'s> Selecting<'s> {
             let why = "begins with a cut from the last position of an operation that is left out";
             return Flow::Break(self.not_alone(why, place));
         }
-        // the program does not change this tool, but the job changes it
-        let reloads = self.passed.reloads && self.held.tool == self.passed.tool;
-        let spindle = self.held.spindle.unwrap_or_default();
-        if let Some(missing) = missing_of_spindle(spindle, self.passed.spindle).filter(|_| reloads) {
-            let why = format!(
-                "does not give its {missing}: the value of an earlier operation with the same tool would stay active, \
-                 because the operations with another tool between them are left out"
-            );
-            return Flow::Break(self.not_alone(&why, place));
-        }
         let held = &self.held;
         let properties = change.set.iter().filter(|(name, _)| !is_variable(name));
         let change = ToolChange {
             spindle: held.spindle,
-            coolant: held.coolant.or(reloads.then_some(Coolant::OFF)),
+            coolant: held.coolant,
+            // otherwise nothing retracts the tool from its last position in the program
+            reloads: true,
             work: held.work,
             set: held.set.iter().chain(properties).cloned().collect(),
             ..change.clone()
@@ -235,7 +214,7 @@ impl<'s> Selecting<'s> {
             event => (event, 0),
         };
         let is_filled = matches!(event, Event::Rapid(_) | Event::Hole(_)) || given != 0;
-        let other = |axis: &usize| !is_filled && self.at.get(*axis) != self.passed.at.get(*axis);
+        let other = |axis: &usize| !is_filled && self.at.get(*axis) != self.passed_at.get(*axis);
         let unknown = |axis: &usize| self.turned & !given & 1 << axis != 0;
         let rotary = (0..6).filter(|axis| self.linear & 1 << axis == 0);
         let Some(axis) = rotary.filter(|axis| other(axis) || unknown(axis)).map(|axis| b"XYZABC"[axis]).next() else {

@@ -190,7 +190,7 @@ impl Surveyor {
                     self.survey.tools.push(ToolUse { tool: tool.clone(), first, totals, operations: Vec::new() });
                     self.survey.tools.len() - 1
                 });
-                if Some(row) != before {
+                if change.reloads || Some(row) != before {
                     self.survey.changes.push(tool.number);
                 }
                 Some(row)
@@ -204,7 +204,7 @@ impl Surveyor {
         if let Some(work) = change.work {
             self.work = self.counted(work);
         }
-        self.motion.operation(change, tool != before);
+        self.motion.operation(change, change.reloads || tool != before);
         self.survey.operations.push(Operation {
             begins,
             tool,

@@ -49,7 +49,7 @@ pub struct Call {
 pub enum Event<'a> {
     /// The head of the job. The head is always the first event.
     Start(&'a Start),
-    /// An operation begins. The tool changes if the operation has another tool number.
+    /// An operation begins.
     ToolChange(&'a ToolChange),
     /// A rapid move to a position.
     Rapid(Axes),

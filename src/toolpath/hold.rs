@@ -94,9 +94,8 @@ impl<'s> Hold<'s> {
     /// The sink fails at an earlier event that was held back.
     pub fn tool_change(&mut self, change: ToolChange, place: Place) -> Result<(), Stop> {
         self.release(First::Nothing)?;
-        let tool = change.tool.as_ref().map(|tool| tool.number);
-        self.changes = tool.is_some() && tool != self.tool;
-        self.tool = tool.or(self.tool);
+        self.changes = change.changes_to(self.tool).is_some();
+        self.tool = change.tool.as_ref().map(|tool| tool.number).or(self.tool);
         self.change = Some((change, place));
         Ok(())
     }

@@ -21,13 +21,16 @@ pub enum First {
     Nothing,
 }
 
-/// The beginning of an operation. The tool changes if the operation has another tool number.
+/// The beginning of an operation.
 #[derive(Clone, Debug, Default)]
 pub struct ToolChange {
     /// Name of the operation.
     pub name: Option<String>,
     /// Tool of the operation; `None` on machines without tools.
     pub tool: Option<Tool>,
+    /// Whether the tool is changed even if it is in the spindle. A part of a job needs this change if the operations
+    /// before this operation are left out, because the change retracts the tool.
+    pub reloads: bool,
     /// Spindle data of the operation, if given.
     pub spindle: Option<Spindle>,
     /// Coolant of the operation, if given.
@@ -46,4 +49,11 @@ pub struct ToolChange {
     pub set: Vec<(String, Given)>,
     /// The beginning of the path.
     pub first: First,
+}
+
+impl ToolChange {
+    /// The tool that the operation changes to. `None`: the tool in the spindle, with the number `before`, stays.
+    pub fn changes_to(&self, before: Option<f64>) -> Option<&Tool> {
+        self.tool.as_ref().filter(|tool| self.reloads || before != Some(tool.number))
+    }
 }

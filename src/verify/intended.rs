@@ -184,7 +184,7 @@ impl Job {
     }
 
     fn tool_change(&mut self, change: &ToolChange, to: &mut impl Intent) -> Done {
-        if let Some(tool) = change.tool.as_ref().filter(|tool| self.tool != Some(tool.number)) {
+        if let Some(tool) = change.changes_to(self.tool) {
             self.tool = Some(tool.number);
             self.state.tool = Some(tool.number);
             if let Some(name) = &tool.name {

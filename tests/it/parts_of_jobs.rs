@@ -121,25 +121,58 @@ fn a_property_of_a_left_out_operation_ends_with_it() {
     }
 }
 
-/// The job changes from tool 1 to tool 2 and back. The program of the operations with tool 1 has no tool change between
-/// them, but the second operation still begins as in the whole program.
+/// `--split work`: the operation of another work offset is left out between two operations with the same tool. The tool is
+/// retracted between them.
 #[test]
-fn a_tool_that_is_used_again_begins_anew() {
+fn a_tool_is_retracted_where_an_operation_of_another_work_offset_is_left_out() {
     let post = post();
-    let only_first = |last: &str| {
-        let keys = format!("\"work\":54,\"coolant\":\"flood\",{TURNS}");
-        let text = job(&[operation(1, &keys, CUT), operation(2, TURNS, CUT), operation(1, last, CUT)]);
-        let mut job = Job::json(&text);
-        job.reading.select.only = vec![1];
-        post.render(job, &Options::default())
-            .map(|program| program.text().to_owned())
-            .map_err(|error| error.to_string())
-    };
-    let dry = only_first(TURNS).unwrap();
-    let (_, second) = dry.split_once("G1 Z-1.").unwrap();
-    assert!(second[..second.find("G1 Z-1.").unwrap()].contains("M9"), "the coolant is off: {dry}");
-    let refused = only_first("\"feed\":100,").unwrap_err();
-    assert!(refused.contains("PR060") && refused.contains("direction of the spindle"), "{refused}");
+    let below = r#"{"rapid":[1,1,10]},{"line":[1,1,-1]},{"line":[2,2,-1]}"#;
+    let keys = format!("\"work\":54,\"coolant\":\"flood\",{TURNS}");
+    let text = job(&[
+        operation(1, &keys, below),
+        operation(1, "\"work\":55,\"feed\":100,", below),
+        operation(1, "\"work\":54,\"feed\":100,", CUT),
+    ]);
+    let mut part = Job::json(&text);
+    part.reading.select.work = Some(Some(54.0));
+    let part = post.render(part, &Options::default()).unwrap().text().to_owned();
+    let (before, after) = part.split_once("X2. Y2.").unwrap().1.split_once("T1 M6").unwrap();
+    assert!(before.contains("G53 Z0") || before.contains("G28"), "{part}");
+    assert!(after.contains("S1000 M3") && after.contains("M8"), "spindle and coolant stay: {part}");
+}
+
+/// The job changes from tool 1 to tool 2 and back. A program without the operation of tool 2 changes from tool 1 to tool 1,
+/// with the retract and the approach of the whole program.
+#[test]
+fn a_tool_that_is_used_again_is_changed_again() {
+    let post = post();
+    let keys = format!("\"work\":54,\"coolant\":\"flood\",{TURNS}");
+    let below = r#"{"rapid":[1,1,10]},{"line":[1,1,-1]},{"line":[2,2,-1]}"#;
+    let away = r#"{"rapid":[80,80,10]},{"line":[80,80,-1]},{"rapid":[80,80,10]}"#;
+    for last in [operation(1, TURNS, away), operation(1, &format!("\"work\":55,{TURNS}"), away)] {
+        let text = job(&[operation(1, &keys, below), operation(2, TURNS, CUT), last]);
+        let mut part = Job::json(&text);
+        part.reading.select.only = vec![1];
+        let part = post.render(part, &Options::default()).unwrap().text().to_owned();
+        let whole = print(&post, &text, None).unwrap();
+        // without block numbers and the staging of the next tool
+        let last_change = |program: &str| {
+            let after = program.rsplit_once(" M6\n").unwrap().1;
+            let blocks = after.lines().map(|line| line.split_once(' ').map_or(line, |(_, words)| words));
+            blocks.map(str::to_owned).collect::<Vec<_>>()
+        };
+        assert_eq!(last_change(&part), last_change(&whole), "{part}");
+        assert_eq!(part.matches("T1 M6").count(), 2, "{part}");
+        let between = part.split_once("X2. Y2.").unwrap().1.split_once("T1 M6").unwrap().0;
+        assert!(between.contains("G53 Z0") || between.contains("G28"), "the tool is retracted: {part}");
+    }
+    // the change stops the spindle, so a speed is missing, as in the whole job
+    let text = job(&[operation(1, &keys, CUT), operation(2, TURNS, CUT), operation(1, "\"feed\":100,", CUT)]);
+    let mut part = Job::json(&text);
+    part.reading.select.only = vec![1];
+    let message = post.render(part, &Options::default()).unwrap_err().to_string();
+    assert!(message.contains("[speed] has no value here"), "{message}");
+    assert!(print(&post, &text, None).unwrap_err().contains("[speed] has no value here"));
 }
 
 /// A speed without a mode is in revolutions per minute, also if an operation with surface speed is left out.

@@ -43,24 +43,20 @@ pub fn tool_change(
     check_sections_closed(sections)?;
     end_operation(&mut Cx { shape, want, said, out })?;
     begin_main(&mut Cx { shape, want, said, out }, subs)?;
-    let number = change.tool.as_ref().map(|tool| tool.number);
-    let changes = number.is_some() && number != want.tool;
-    if number.is_none() && want.tool.is_none() && shape.program.settings.machine != Machine::Edm {
+    let new = change.changes_to(want.tool);
+    if change.tool.is_none() && want.tool.is_none() && shape.program.settings.machine != Machine::Edm {
         let help = "load a tool before the first motion; for a CL file, give the tool with `--assume-tool`";
         return fault(Code::PJ006, "the operation has no tool", help);
     }
     want.standing_told = false;
-    set_conditions(change, changes, shape, want, out)?;
+    set_conditions(change, new.is_some(), shape, want, out)?;
     want.texts.operation(change, shape);
-    match &change.tool {
-        Some(tool) if changes => {
-            said.from_home = false;
-            change_tool(tool, change, shape, want, said, out)?;
-        }
-        tool => {
-            operation_comment(change, None, &mut Cx { shape, want, said, out })?;
-            tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))?;
-        }
+    if let Some(tool) = new {
+        said.from_home = false;
+        change_tool(tool, change, shape, want, said, out)?;
+    } else {
+        operation_comment(change, None, &mut Cx { shape, want, said, out })?;
+        change.tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))?;
     }
     want.in_operation = true;
     run_here(SequenceId::Operation, &mut Cx { shape, want, said, out })

@@ -145,6 +145,7 @@ impl<'s> Builder<'s> {
         let change = ToolChange {
             name: head.name,
             tool,
+            reloads: false,
             spindle: head.spindle.map(|s| spindle_of(&s)).transpose()?,
             coolant: head.coolant.map(|c| c.0),
             work: head.work.map(|w| not_negative("work", w)).transpose()?,

@@ -39,10 +39,6 @@ struct Held {
     coolant: Option<Coolant>,
     is_tilted: bool,
     is_compensated: bool,
-    /// The tool of the last operation.
-    tool: Option<f64>,
-    /// Whether the tool went home after its last move.
-    is_home: bool,
     /// Whether a job contains text that is printed unchanged.
     has_text: bool,
     set: Vec<String>,
@@ -109,7 +105,8 @@ impl<'s> Joining<'s> {
             if let Err(wrong) = self.is_complete(change, place) {
                 return Flow::Break(*wrong);
             }
-            // alone, the job would begin without coolant
+            // alone, the job would begin with a tool change, which retracts the tool, and without coolant
+            own.reloads = true;
             if self.held.coolant.is_some_and(|coolant| coolant != Coolant::OFF) && own.coolant.is_none() {
                 own.coolant = Some(Coolant::OFF);
             }
@@ -122,12 +119,10 @@ impl<'s> Joining<'s> {
         {
             return Flow::Break(*wrong);
         }
-        self.held.tool = own.tool.as_ref().map(|tool| tool.number);
         self.held.work = own.work.or(self.held.work);
         self.held.coolant = own.coolant.or(self.held.coolant);
         self.spindle(own.spindle.unwrap_or_default());
         own.set.iter().for_each(|(name, _)| self.sets(name));
-        self.held.is_home &= matches!(own.first, First::Nothing);
         match &own.first {
             First::Rapid(to) => self.held.axes |= to.given,
             First::Hole(_, hole) => self.held.axes |= hole.at.given,
@@ -155,12 +150,6 @@ impl<'s> Joining<'s> {
         } else if held.is_compensated {
             help = "turn the compensation off at the end of that job";
             "the job before ends with cutter compensation on".to_owned()
-        } else if !self.is_of(Machine::Edm)
-            && !held.is_home
-            && change.tool.as_ref().map(|tool| tool.number) == held.tool
-        {
-            help = "end the job before with `home`, or print the jobs separately";
-            "the tool stays the same, so nothing retracts it between the jobs".to_owned()
         } else if let Some(axis) = self.missing_axis(change) {
             format!(
                 "its first move is not a rapid or a hole that gives {axis}: the position of the job before would apply"
@@ -220,10 +209,8 @@ impl<'s> Joining<'s> {
 
     /// Updates the state that stays active after an event.
     fn follow(&mut self, event: &Event<'_>) {
-        self.held.is_home &= !event.moves();
         self.held.axes |= event.target().map_or(0, |to| to.given);
         match event {
-            Event::Home => self.held.is_home = true,
             Event::Text(_) => self.held.has_text = true,
             Event::Infeed { .. } => self.held.is_compensated = true,
             Event::Outfeed { .. } => self.held.is_compensated = false,

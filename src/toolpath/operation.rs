@@ -28,8 +28,8 @@ pub struct ToolChange {
     pub name: Option<String>,
     /// Tool of the operation; `None` on machines without tools.
     pub tool: Option<Tool>,
-    /// Whether the tool is changed even if it is in the spindle. A part of a job needs this change if the operations
-    /// before this operation are left out, because the change retracts the tool.
+    /// Whether the tool is changed even if it is in the spindle. The first operation of a joined job, and an operation
+    /// after left-out operations, need this change, because it retracts the tool.
     pub reloads: bool,
     /// Spindle data of the operation, if given.
     pub spindle: Option<Spindle>,

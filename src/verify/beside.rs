@@ -52,6 +52,8 @@ pub(super) struct Beside {
     /// The frames of the program's rapids.
     pub measured: Measured,
     pub stops: Vec<Mark<StopKind>>,
+    /// Changes of the program to the tool that is in the spindle.
+    pub reloads: Vec<Mark<()>>,
     /// Dwells in seconds. NaN means a dwell of any length.
     pub waits: Vec<Mark<f64>>,
     /// The changes of the spindle's rotation, in order.
@@ -86,6 +88,7 @@ impl Beside {
         self.compensated.clear();
         self.measured.clear();
         self.stops.clear();
+        self.reloads.clear();
         self.waits.clear();
         self.turns.clear();
         (self.started, self.is_off, self.new_tool) = (false, false, false);

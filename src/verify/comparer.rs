@@ -304,6 +304,7 @@ impl Intent for Sides<'_> {
         self.job.change(frame);
         if let Some(leg) = self.job.leg() {
             leg.lengths.push(length);
+            leg.loads |= tool;
         }
         if tool {
             self.hole.highest = None;

@@ -22,6 +22,8 @@ pub(super) struct Leg {
     from: usize,
     /// Whether the leg begins where the job sends the tool home.
     home: bool,
+    /// Whether the leg begins where the job changes the tool.
+    pub loads: bool,
     /// Length registers that were active while the tool moved to known heights. For a job: the tool's length register.
     pub lengths: Vec<Option<f64>>,
 }
@@ -219,7 +221,7 @@ impl Passage {
             self.left_aside = std::mem::take(&mut self.aside);
         }
         let frame = self.legs.last().map_or_else(Frame::default, |leg| leg.frame);
-        self.legs.push(Leg { frame, from: self.rapids.len(), home: true, lengths: vec![length] });
+        self.legs.push(Leg { frame, from: self.rapids.len(), home: true, loads: false, lengths: vec![length] });
     }
 
     /// Whether the tool was sent home.
@@ -256,10 +258,15 @@ impl Passage {
         self.stops.iter().filter(|stop| stop.what == kind && stop.leg < leg).count()
     }
 
-    /// The indices of the legs that begin with a new tool. `true`: the new tool is the first tool of the program.
+    /// The indices of the job's legs that begin with a tool change. `true`: the tool is the first tool of the program.
     pub fn tool_changes(&self) -> Vec<(usize, bool)> {
-        let pairs = self.legs.windows(2).enumerate().filter(|(_, pair)| pair[0].frame.tool != pair[1].frame.tool);
+        let pairs = self.legs.windows(2).enumerate().filter(|(_, pair)| pair[1].loads);
         pairs.map(|(at, pair)| (at + 1, pair[0].frame.tool.is_none())).collect()
+    }
+
+    /// The number of the job's tool changes to the tool that is in the spindle.
+    pub fn reloads(&self) -> usize {
+        self.legs.windows(2).filter(|pair| pair[1].loads && pair[0].frame.tool == pair[1].frame.tool).count()
     }
 
     /// The current leg, which is the last leg of the passage.
@@ -274,7 +281,7 @@ impl Passage {
     }
 
     fn has_too_much_beside(&self) -> bool {
-        let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
+        let marks = self.stops.len() + self.reloads.len() + self.waits.len() + self.turns.len() + self.does.len();
         let codes = self.codes.len() + self.words.len() + self.tool_data.len();
         self.rapids.len() + codes + self.astray.len() > MOST || marks > MOST_MARKS
     }

@@ -1,7 +1,7 @@
 //! Compares the paths between cuts. The program's path may be higher than the job's path, but not lower, and may not go
 //! to other positions.
 
-use super::beside::Compensated;
+use super::beside::{Compensated, Mark};
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, is_length, number, same, shown};
 use super::idle;
 use super::modal::{TOOL_LENGTH, WITHOUT};
@@ -55,6 +55,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     compensated(s, line);
     moved_with(s, line);
     goes_home(s, line);
+    loads_again(s);
     if s.machine != Machine::Mill {
         return beside_the_part(s, line);
     }
@@ -259,6 +260,15 @@ fn goes_home(s: &mut Sides<'_>, line: u64) {
     }
 }
 
+/// Where the job changes to the tool that is in the spindle, a new leg of both paths begins.
+fn loads_again(s: &mut Sides<'_>) {
+    let count = s.job.reloads();
+    let marks: Vec<Mark<()>> = s.program.passage.reloads.iter().take(count).copied().collect();
+    for mark in marks.iter().rev() {
+        s.program.passage.split(mark);
+    }
+}
+
 /// The first position that has a known height and is not straight above or below `from`.
 fn crosses(from: Option<&Rapid>, rapids: &[Rapid], tolerance: f64) -> Option<Place> {
     let from = from?;
@@ -398,6 +408,7 @@ pub(super) fn end(s: &mut Sides<'_>) {
     compensated(s, 0);
     moved_with(s, 0);
     goes_home(s, 0);
+    loads_again(s);
     if s.machine != Machine::Mill {
         return beside_the_part(s, 0);
     }

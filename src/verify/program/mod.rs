@@ -436,6 +436,9 @@ impl<'a> Program<'a> {
             if self.control.is_lathe() {
                 self.passage.turrets.push(self.placed & 0b101);
             }
+        } else {
+            let mark = self.passage.mark((), line, toolpath::Place::default());
+            self.passage.reloads.push(mark);
         }
         if self.control.is_lathe() {
             self.unknown |= 0b101; // the turret indexes, so X and Z are unknown

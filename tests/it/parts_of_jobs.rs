@@ -169,9 +169,9 @@ fn a_tool_that_is_used_again_is_changed_again() {
     // the proof finds a program that goes to the last operation without the retract
     let folder = Folder::new("part-without-retract");
     let last = operation(1, TURNS, away);
-    folder.write("job.json", &job(&[operation(1, &keys, below), operation(2, TURNS, CUT), last.clone()]));
-    folder.write("form.pf", &form());
-    folder.write("direct.nc", &print(&post, &job(&[operation(1, &keys, below), last]), None).unwrap());
+    folder.write("job.json", job(&[operation(1, &keys, below), operation(2, TURNS, CUT), last.clone()]));
+    folder.write("form.pf", form());
+    folder.write("direct.nc", print(&post, &job(&[operation(1, &keys, below), last]), None).unwrap());
     let verified = folder.run(&["verify", "job.json", "--form", "form.pf", "--only", "1", "--nc", "direct.nc"]);
     assert_eq!(verified.status.code(), Some(1), "{}", out(&verified));
     assert!(err(&verified).contains("PV009") && err(&verified).contains("a rapid goes from Z-1 to X80 Y80 Z10"));

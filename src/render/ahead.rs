@@ -9,7 +9,7 @@ use crate::lang::{Each, Machine, VarId, work_code};
 use crate::sema::Settings;
 use crate::survey::{Survey, Terms, Totals};
 use crate::times::Rates;
-use crate::toolpath::{SpindleTurn, Tool, Units};
+use crate::toolpath::{Tool, Units};
 
 /// An item of a list: a row of the survey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,20 +104,14 @@ pub fn of_item(item: Item, survey: &Survey, shape: &Shape, want: &Want) -> Want 
 /// Sets the values of an operation and of its tool.
 fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     let operation = &survey.operations[row];
-    let settings = &shape.program.settings;
     let mut begins = operation.begins.clone();
     if let Some(used) = operation.tool.map(|tool| &survey.tools[tool]) {
         tool_variables(&used.tool, shape, want);
         begins.tool = Some(used.tool.clone());
     }
     want.texts.operation(&begins, shape);
-    want.put(VarId::Speed, operation.spindle.speed);
-    let direct = operation.spindle.turn.map(|turn| match turn {
-        SpindleTurn::Cw => settings.spindle[0],
-        SpindleTurn::Ccw => settings.spindle[1],
-        SpindleTurn::Off => settings.spindle[2],
-    });
-    want.put(VarId::Direct, direct);
+    want.clear_spindle(shape);
+    want.put_spindle(&operation.spindle, shape);
     want.put(VarId::Frate, begins.feed.map(|feed| feed * shape.scale));
     want.put(VarId::Plunge, begins.plunge.or(begins.feed).map(|feed| feed * shape.scale));
     want.set(VarId::Work, operation.totals.works.first().map_or(operation.work, |work| f64::from_bits(*work)));

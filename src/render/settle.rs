@@ -182,8 +182,7 @@ fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
     let Some(limit) = said.conditions.get(VarId::Maxrpm).filter(|_| want.get(VarId::Maxrpm).is_none()) else {
         return Ok(());
     };
-    let surface = want.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[0]);
-    if !surface && want.get(VarId::Speed).is_none_or(|speed| speed <= limit) {
+    if !want.is_surface(shape) && want.get(VarId::Speed).is_none_or(|speed| speed <= limit) {
         return Ok(());
     }
     let message = format!("the tool change limited the spindle to its first speed, {limit}");

@@ -86,6 +86,5 @@ pub fn property_text<'r>(row: u16, want: &'r Want, said: &'r Said) -> &'r str {
 
 /// The spindle limit if the job gives no limit: the speed itself. `None` for a surface speed.
 pub fn rpm_as_limit(shape: &Shape, want: &Want) -> Option<f64> {
-    let turns = want.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[1]);
-    want.get(VarId::Speed).filter(|_| turns)
+    want.get(VarId::Speed).filter(|_| !want.is_surface(shape))
 }

@@ -94,6 +94,8 @@ impl Want {
         want.set(VarId::Coolantoff, settings.coolant[1]);
         want.set(VarId::Flush, settings.flush[1]);
         want.set(VarId::Speedtype, settings.speed_type[1]);
+        want.set(VarId::Totalcutdist, 0.0);
+        want.set(VarId::Totalcuttime, 0.0);
         want.set(VarId::Work, default_work(settings));
         want.set(VarId::Cool, settings.coolant[1]);
         want.set(VarId::Lasthole, 0.0);
@@ -120,8 +122,9 @@ impl Want {
 
     /// Adds to the value of a variable.
     pub fn add(&mut self, var: VarId, value: f64) {
-        let sum = self.get(var).unwrap_or(0.0) + value;
-        self.set(var, sum);
+        if let Some(sum) = self.get(var) {
+            self.set(var, sum + value);
+        }
     }
 
     /// Clears the values of these variables.
@@ -242,18 +245,23 @@ impl Want {
         Ok(())
     }
 
+    /// Clears speed and direction, as a tool change does. The limit becomes that of the whole job.
+    pub fn clear_spindle(&mut self, shape: &Shape) {
+        for var in [VarId::Speed, VarId::Direct] {
+            self.put(var, None);
+        }
+        self.put(VarId::Maxrpm, self.most_rpm);
+        self.set(VarId::Speedtype, shape.program.settings.speed_type[1]);
+    }
+
     /// Sets speed, direction, limit and speed mode.
-    pub fn set_spindle(&mut self, spindle: &Spindle, shape: &Shape) -> Done {
+    pub fn put_spindle(&mut self, spindle: &Spindle, shape: &Shape) {
         let settings = &shape.program.settings;
         if let Some(css) = spindle.css {
-            if css {
-                shape.needs(Meaning::SurfaceSpeed)?;
-            }
             self.set(VarId::Speedtype, settings.speed_type[usize::from(!css)]);
         }
         if let Some(speed) = spindle.speed {
-            let surface = self.get(VarId::Speedtype) == Some(settings.speed_type[0]);
-            self.set(VarId::Speed, if surface { speed * surface_scale(shape) } else { speed });
+            self.set(VarId::Speed, if self.is_surface(shape) { speed * surface_scale(shape) } else { speed });
         }
         if let Some(turn) = spindle.turn {
             let code = match turn {
@@ -265,6 +273,30 @@ impl Want {
         }
         if let Some(max) = spindle.max {
             self.set(VarId::Maxrpm, max);
+        }
+    }
+
+    /// Whether the speed is a surface speed.
+    pub fn is_surface(&self, shape: &Shape) -> bool {
+        self.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[0])
+    }
+
+    /// The spindle, without its direction. The speed is in the unit of the program.
+    pub fn spindle(&self, shape: &Shape) -> Spindle {
+        let [speed, max] = [VarId::Speed, VarId::Maxrpm].map(|var| self.get(var));
+        Spindle { speed, max, css: Some(self.is_surface(shape)), turn: None }
+    }
+
+    /// Changes the spindle for the blocks that follow.
+    ///
+    /// # Errors
+    /// The control has no surface speed, or the form does not print the limit of the spindle.
+    pub fn set_spindle(&mut self, spindle: &Spindle, shape: &Shape) -> Done {
+        if spindle.css == Some(true) {
+            shape.needs(Meaning::SurfaceSpeed)?;
+        }
+        self.put_spindle(spindle, shape);
+        if let Some(max) = spindle.max {
             if !shape.program.printed.has(VarId::Maxrpm) {
                 let message = format!("the spindle is limited to {max}, but the form does not print [maxrpm]");
                 return fault(Code::PR038, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");

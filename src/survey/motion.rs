@@ -27,8 +27,8 @@ pub struct Motion {
     parts: Vec<f64>,
     /// Calculates times with the accelerations of the axes, if the machine is known.
     planner: Option<Planner>,
-    /// Number of millimetres per length unit of the job.
-    scale: f64,
+    /// The units of the job.
+    units: Units,
 }
 
 impl Motion {
@@ -48,7 +48,7 @@ impl Motion {
             steps: Steps::default(),
             parts: Vec::new(),
             planner: rates.cloned().map(Planner::new),
-            scale: units.in_mm(),
+            units,
         }
     }
 
@@ -76,20 +76,13 @@ impl Motion {
         if fresh {
             self.spindle = Spindle::default();
         }
-        self.turn(change.spindle);
+        self.turn(change.spindle.unwrap_or_default().of_operation());
         self.feed = change.feed;
         self.mode = change.feed_mode.unwrap_or(FeedMode::PerMinute);
     }
 
-    fn turn(&mut self, spindle: Option<Spindle>) {
-        let Some(new) = spindle else { return };
-        let own = &mut self.spindle;
-        *own = Spindle {
-            speed: new.speed.or(own.speed),
-            turn: new.turn.or(own.turn),
-            css: new.css.or(own.css),
-            max: new.max.or(own.max),
-        };
+    fn turn(&mut self, spindle: Spindle) {
+        self.spindle = spindle.after(self.spindle);
     }
 
     /// The state of the spindle, as the job has set it so far.
@@ -97,20 +90,16 @@ impl Motion {
         self.spindle
     }
 
-    /// Spindle revolutions per minute, if known.
+    /// Spindle revolutions per minute, if they do not depend on the position.
     fn rpm(&self) -> Option<f64> {
-        self.spindle.speed.filter(|_| self.spindle.css != Some(true))
+        self.spindle.rpm(None, self.units)
     }
 
-    /// Spindle revolutions per minute during a cut that begins at `from`. At a constant surface speed (in metres or
-    /// feet per minute), the revolutions at the middle of the cut are used. For a straight cut, the speed at the middle
-    /// gives the exact time.
+    /// Spindle revolutions per minute during a cut that begins at `from`. At a constant surface speed, the revolutions at
+    /// the middle of the cut are used. For a straight cut, the speed at the middle gives the exact time.
     fn rpm_from(&self, from: &Axes) -> Option<f64> {
-        let (Some(speed), Some(true)) = (self.spindle.speed, self.spindle.css) else { return self.rpm() };
-        let radius = (from.get(1)? + self.at.get(1)?).abs() / 2.0;
-        let a_turn = std::f64::consts::TAU * radius * self.scale;
-        let surface = if self.scale == 1.0 { 1000.0 } else { 12.0 * 25.4 };
-        Some((speed * surface / a_turn).min(self.spindle.max.unwrap_or(f64::INFINITY))).filter(|rpm| rpm.is_finite())
+        let radius = from.get(1).zip(self.at.get(1)).map(|(from, to)| (from + to).abs() / 2.0);
+        self.spindle.rpm(radius, self.units)
     }
 
     /// Adds the moves of an event.
@@ -134,7 +123,7 @@ impl Motion {
             }
             Event::Hole(hole) => self.hole(hole, sums),
             Event::Feed(feed) => self.feed = Some(*feed),
-            Event::Spindle(spindle) => self.turn(Some(*spindle)),
+            Event::Spindle(spindle) => self.turn(*spindle),
             _ => {}
         }
     }
@@ -168,7 +157,7 @@ impl Motion {
     /// unknown.
     fn way(&self, from: &Axes) -> Way {
         let between = |axis| Some(self.at.get(axis)? - from.get(axis)?);
-        let way = |axis| between(axis).map_or(0.0, |way| if axis < 3 { way * self.scale } else { way });
+        let way = |axis| between(axis).map_or(0.0, |way| if axis < 3 { way * self.units.in_mm() } else { way });
         let mut whole = Way::default();
         (0..6).for_each(|axis| whole[self.machine_axis(axis)] = way(axis));
         whole
@@ -209,7 +198,7 @@ impl Motion {
         let minutes = feed.and_then(|feed| self.minutes(length, feed, from));
         match (&mut self.planner, minutes) {
             (Some(planner), Some(minutes)) if length > 0.0 => {
-                plan(planner, length * self.scale / (minutes * 60.0));
+                plan(planner, length * self.units.in_mm() / (minutes * 60.0));
                 sums.cut(length, Some(0.0));
             }
             _ => sums.cut(length, minutes),
@@ -218,13 +207,7 @@ impl Motion {
 
     /// The time of a cut in minutes, if it is known.
     fn minutes(&self, length: f64, feed: f64, from: &Axes) -> Option<f64> {
-        let minutes = match self.mode {
-            FeedMode::InverseTime => 1.0 / feed,
-            _ if length == 0.0 => 0.0,
-            FeedMode::PerMinute => length / feed,
-            FeedMode::PerRev => length / (feed * self.rpm_from(from)?),
-        };
-        Some(minutes).filter(|minutes| minutes.is_finite())
+        self.mode.minutes(length, feed, self.rpm_from(from))
     }
 
     fn arc(&mut self, arc: &Arc, feed: Option<f64>, sums: &mut Totals) {
@@ -266,7 +249,7 @@ impl Motion {
         let plane = [a, b].map(|axis| self.machine_axis(axis));
         plane.iter().for_each(|&axis| way[axis] = 0.0);
         let begin = [a, b].map(|axis| from.values[axis]);
-        let offset = [0, 1].map(|axis| (begin[axis] - curve.centre[axis]) * self.scale);
+        let offset = [0, 1].map(|axis| (begin[axis] - curve.centre[axis]) * self.units.in_mm());
         let planned = Curve { plane, from: offset, sweep: curve.sweep, rise: way };
         self.cut((&from, (curve.radius * curve.sweep).hypot(rise)), self.feed, sums, |planner, feed| {
             planner.arc(&planned, feed)
@@ -328,7 +311,7 @@ impl Motion {
         for step in &steps {
             let along = |to: f64| {
                 let mut way = Way::default();
-                way[self.machine_axis(depth_axis)] = (to - height) * self.scale;
+                way[self.machine_axis(depth_axis)] = (to - height) * self.units.in_mm();
                 way
             };
             match *step {

@@ -2,6 +2,7 @@
 
 pub use crate::lang::Coolant;
 
+use super::axes::Units;
 use super::start::Given;
 
 /// A tool.
@@ -67,6 +68,21 @@ impl Spindle {
     pub(crate) fn of_operation(self) -> Spindle {
         Spindle { css: self.css.or(self.speed.map(|_| false)), ..self }
     }
+
+    /// Revolutions per minute with the tool at this distance from the axis, if known. At a constant surface speed, which
+    /// is in feet per minute with inches and in metres per minute with millimetres, they depend on the distance.
+    pub(crate) fn rpm(&self, radius: Option<f64>, units: Units) -> Option<f64> {
+        let speed = self.speed?;
+        if self.css != Some(true) {
+            return Some(speed);
+        }
+        let surface = match units {
+            Units::Inch => 12.0,
+            Units::Mm => 1000.0,
+        };
+        let rpm = speed * surface / (std::f64::consts::TAU * radius?);
+        Some(rpm.min(self.max.unwrap_or(f64::INFINITY))).filter(|rpm| rpm.is_finite())
+    }
 }
 
 /// The unit of feeds.
@@ -78,4 +94,17 @@ pub enum FeedMode {
     PerRev,
     /// Moves per minute: the inverse of the time of a move. G93.
     InverseTime,
+}
+
+impl FeedMode {
+    /// The time in minutes of a cut of this length, if known. `rpm`: revolutions of the spindle per minute.
+    pub(crate) fn minutes(self, length: f64, feed: f64, rpm: Option<f64>) -> Option<f64> {
+        let minutes = match self {
+            FeedMode::InverseTime => 1.0 / feed,
+            _ if length == 0.0 => 0.0,
+            FeedMode::PerMinute => length / feed,
+            FeedMode::PerRev => length / (feed * rpm?),
+        };
+        Some(minutes).filter(|minutes| minutes.is_finite())
+    }
 }

@@ -235,7 +235,7 @@ fn lathe(lines: &str) -> String {
 }
 
 #[test]
-fn a_time_that_nobody_knows_is_none() {
+fn a_time_that_is_unknown_is_none() {
     let job = job(&[(1, 54, LINE)])
         .replacen("\"direction\":\"cw\"", "\"direction\":\"cw\",\"mode\":\"css\"", 1)
         .replace("\"feed\":60", "\"feed\":0.1,\"feed_mode\":\"per_rev\"");
@@ -248,6 +248,34 @@ fn a_time_that_nobody_knows_is_none() {
     // at radius 0, a surface speed gives no spindle speed, unless the job has a limit
     assert_eq!(remarks("10,0"), ["(LONG)", "(10 MM IN - S)"]);
     assert_eq!(remarks("10,5"), ["(.1054 S)", "(11 MM IN .1054 S)"]);
+}
+
+/// At a constant surface speed, the spindle has the speed that belongs to the middle of the cut. A later operation with a
+/// speed without a mode is in revolutions per minute. Lists, totals and the row of each operation agree.
+#[test]
+fn a_surface_speed_gives_the_time_of_a_cut() {
+    let operation = |spindle: &str, path: &str| {
+        format!(
+            r#"{{"tool":1,"work":54,"spindle":{spindle},"feed":0.2,"feed_mode":"per_rev","path":[{{"rapid":[2,30]}},{path}]}}"#
+        )
+    };
+    let text = |path: &str| {
+        let first = operation(r#"{"speed":200,"direction":"cw","mode":"css"}"#, path);
+        let second = operation(r#"{"speed":500,"direction":"ccw"}"#, r#"{"line":[-20,30]}"#);
+        format!(
+            r#"{{"postform":1,"units":"mm","machine":"lathe","tools":[{{"number":1}}],"operations":[{first},{second}]}}"#
+        )
+    };
+    let rows = "@for operation\n(G[speedtype] S[speed] M[direct] [round(cuttime * 10)])\n@end\n([round(cuttime * 10)])";
+    let form = lathe(rows).replace("EndCode\n", "EndCode\n([round(totalcuttime * 10)] [totalcutdist])\n");
+    let remarks = |path: &str| -> Vec<String> {
+        program(&form, &text(path)).into_iter().filter(|line| line.starts_with('(') || line.starts_with("PR")).collect()
+    };
+    // 22 mm at 0.2 mm a turn: 110 turns at 200 m/min on the radius 30 take 6.2 s, and at 500 rpm 13.2 s
+    assert_eq!(remarks(r#"{"line":[-20,30]}"#), ["(G96 S200 M3 62)", "(G97 S500 M4 132)", "(194)", "(194 44)"]);
+    // a cut in the axis has no speed, and therefore no time
+    let across = r#"{"line":[2,0]},{"line":[-20,0]}"#;
+    assert_eq!(remarks(across), ["(G96 S200 M3 -)", "(G97 S500 M4 132)", "(-)", "(- 74)"]);
 }
 
 #[test]

@@ -67,7 +67,8 @@ pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) 
     let climbs = differs_by(&target, across, cx.said);
     if shape.measures {
         let rise = target.values[across] - cx.said.stand.position.values[across];
-        measured((curve.radius * curve.sweep.abs()).hypot(if climbs { rise } else { 0.0 }), true, cx.want);
+        let length = (curve.radius * curve.sweep.abs()).hypot(if climbs { rise } else { 0.0 });
+        measured(length, &target, true, cx);
     }
     if !shape.program.settings.limits.is_empty() {
         check_arc(&curve, axes, &target, shape)?;

@@ -69,7 +69,7 @@ fn compensate(to: &Axes, switch: &Switch, cx: &mut Cx<'_>) -> Done {
     let target = begin_cut(to, (!rapid).then_some(feed), cx)?;
     cut_goes_to(&target, true, cx)?;
     if shape.measures {
-        measure(&target, !rapid, cx.want, cx.said);
+        measure(&target, !rapid, cx);
     }
     if let Some(routine) = shape.routine(id, cx.want, cx.said) {
         let tapers = shape.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());

@@ -50,7 +50,7 @@ pub fn line_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
         cx.said.force(shape);
     }
     if shape.measures {
-        measure(target, true, cx.want, cx.said);
+        measure(target, true, cx);
     }
     match shape.routine(SequenceId::LineCode, cx.want, cx.said) {
         Some(routine) if cx.said.differs_from(target, 0x3f, shape) => {

@@ -77,7 +77,7 @@ pub fn rapid_block(target: &Axes, code: Option<sema::Code>, cx: &mut Cx<'_>) -> 
             for axis in (0..shape.linear.min(3)).filter(|axis| whole.given & 1 << axis == 0) {
                 cx.want.put(NOW[axis], None);
             }
-            measure(target, false, cx.want, cx.said);
+            measure(target, false, cx);
             let routine = shape.way(routine, cx.want, cx.said);
             check_prints(routine, target, shape, cx.said)?;
             upons(routine.vars, cx)?;

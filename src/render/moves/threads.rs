@@ -109,7 +109,7 @@ fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
         let help = "end the compensation with an `outfeed` first";
         return fault(Code::PR030, "a thread under cutter compensation", help);
     }
-    if want.get(VarId::Speedtype) == Some(settings.speed_type[0]) {
+    if want.is_surface(shape) {
         let message =
             "a thread at constant surface speed: the passes have different speeds and different starting angles"
                 .to_owned();

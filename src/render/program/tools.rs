@@ -114,11 +114,7 @@ fn same_registers(tool: &Tool, want: &Want) -> Done {
 /// Sets spindle, coolant, work offset and feeds of the operation.
 fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     if new_tool {
-        for var in [VarId::Speed, VarId::Direct] {
-            want.put(var, None);
-        }
-        want.put(VarId::Maxrpm, want.most_rpm);
-        want.set(VarId::Speedtype, shape.program.settings.speed_type[1]);
+        want.clear_spindle(shape);
     }
     if let Some(spindle) = change.spindle {
         want.set_spindle(&spindle.of_operation(), shape)?;

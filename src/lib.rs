@@ -139,7 +139,7 @@ pub mod internals {
     }
     pub mod nc {
         pub use crate::nc::{
-            Action, Cooling, Item, JobOptions, Kind, Position, Rotation, RunError, RunSettings, Simulator, Tally, Turn,
+            Action, Item, JobOptions, Kind, Position, Rotation, RunError, RunSettings, Simulator, Tally, Turn,
             Unpointed, clock, control_of_name, json_line, plane_name, rapid_rate, read_program, settings_for,
             stop_name, tokens, turn_name,
         };

@@ -2,7 +2,7 @@
 
 use crate::control::{Code, Control, Meaning};
 use crate::lang::Coolant;
-use crate::nc::{Kind, tokens};
+use crate::nc::{Kind, coolant_of, tokens};
 use crate::toolpath::{Spindle, SpindleTurn};
 
 /// The state that a text item leaves active.
@@ -49,18 +49,18 @@ impl Left {
 
     fn code(&mut self, meaning: Meaning) {
         use Meaning as M;
-        let (turn, coolant, other) = match meaning {
-            M::SpindleCw => (Some(SpindleTurn::Cw), None, Other::None),
-            M::SpindleCcw => (Some(SpindleTurn::Ccw), None, Other::None),
-            M::SpindleOff => (Some(SpindleTurn::Off), None, Other::None),
-            M::Flood => (None, Some(Coolant::FLOOD), Other::None),
-            M::Mist => (None, Some(Coolant::MIST), Other::None),
-            M::CoolantOff => (None, Some(Coolant::OFF), Other::None),
-            M::SpindleCwCoolant => (Some(SpindleTurn::Cw), Some(Coolant::FLOOD), Other::None),
-            M::SpindleCcwCoolant => (Some(SpindleTurn::Ccw), Some(Coolant::FLOOD), Other::None),
-            M::Through | M::Orient => (None, None, Other::UntilTool),
-            M::Dwell | M::StopProgram | M::StopOptional | M::ExactStop | M::Harmless => (None, None, Other::None),
-            _ => (None, None, Other::Unknown),
+        let turn = match meaning {
+            M::SpindleCw | M::SpindleCwCoolant => Some(SpindleTurn::Cw),
+            M::SpindleCcw | M::SpindleCcwCoolant => Some(SpindleTurn::Ccw),
+            M::SpindleOff => Some(SpindleTurn::Off),
+            _ => None,
+        };
+        let coolant = coolant_of(meaning).filter(|_| meaning != M::Through);
+        let other = match meaning {
+            _ if turn.is_some() || coolant.is_some() => Other::None,
+            M::Through | M::Orient => Other::UntilTool,
+            M::Dwell | M::StopProgram | M::StopOptional | M::ExactStop | M::Harmless => Other::None,
+            _ => Other::Unknown,
         };
         self.spindle.turn = turn.or(self.spindle.turn);
         self.coolant = coolant.or(self.coolant);

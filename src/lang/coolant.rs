@@ -1,7 +1,7 @@
 //! Kinds of coolant, by their names.
 
 /// Coolant: one kind, several kinds at the same time, or none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coolant {
     /// The kinds that are on, as bits.
     kinds: u8,
@@ -25,8 +25,8 @@ impl Coolant {
 
     /// All names of coolant in jobs and forms, with their kinds.
     pub const NAMES: [(&'static str, Coolant); 7] = [
-        ("on", Coolant::FLOOD),
         ("flood", Coolant::FLOOD),
+        ("on", Coolant::FLOOD),
         ("mist", Coolant::MIST),
         ("off", Coolant::OFF),
         ("through", Coolant::THROUGH),
@@ -45,7 +45,7 @@ impl Coolant {
 
     /// Name of the first kind, as in forms and messages.
     pub fn name(self) -> &'static str {
-        Coolant::NAMES.iter().find(|(_, kind)| *kind == self.first()).map_or("on", |(name, _)| *name)
+        Coolant::NAMES.iter().find(|(_, kind)| *kind == self.first()).map_or("off", |(name, _)| *name)
     }
 
     /// The first kind.
@@ -77,6 +77,16 @@ impl Coolant {
         let kinds = self.kinds & !other.kinds;
         let lowest = kinds & kinds.wrapping_neg();
         Coolant { kinds, first: if self.first & kinds == 0 { lowest } else { self.first } }
+    }
+
+    /// This coolant after a code that turns on this kind, or all kinds off. Flood and mist replace each other.
+    #[must_use]
+    pub fn then(self, kind: Coolant) -> Coolant {
+        match kind {
+            Coolant::OFF => Coolant::OFF,
+            Coolant::FLOOD | Coolant::MIST => self.without(Coolant::FLOOD.and(Coolant::MIST)).and(kind),
+            _ => self.and(kind),
+        }
     }
 
     /// Whether the same kinds are on, in any order.

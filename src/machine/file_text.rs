@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 use toml::{Spanned, Value};
 
-use super::Coolant;
 use super::axis::Kind;
+use crate::toolpath::Coolant;
 
 type Range = Spanned<[f64; 2]>;
 
@@ -102,9 +103,21 @@ pub(super) struct ToolText {
     pub(super) name: Option<String>,
 }
 
+/// Reads the names of kinds of coolant.
+fn kinds<'de, D: Deserializer<'de>>(text: D) -> Result<Option<Vec<Coolant>>, D::Error> {
+    const KINDS: &[&str] = &["flood", "mist", "through", "air", "high"];
+    let names = Vec::<String>::deserialize(text)?;
+    let kind = |name: &String| match Coolant::parse(name).filter(|_| KINDS.contains(&name.as_str())) {
+        Some(kind) => Ok(kind),
+        None => Err(Error::unknown_variant(name, KINDS)),
+    };
+    names.iter().map(kind).collect::<Result<_, _>>().map(Some)
+}
+
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoolantText {
+    #[serde(default, deserialize_with = "kinds")]
     pub(super) kinds: Option<Vec<Coolant>>,
 }
 

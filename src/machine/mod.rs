@@ -23,7 +23,7 @@ pub use tool_table::ToolTable;
 use std::collections::BTreeMap;
 
 use crate::control::Control;
-use crate::toolpath::Units;
+use crate::toolpath::{Coolant, Units};
 
 pub use file::{Beside, read};
 
@@ -78,30 +78,6 @@ pub struct Rotary {
     pub centre: [f64; 3],
     /// Whether the control keeps the position of the tool tip while the axes turn.
     pub tip_control: bool,
-}
-
-/// A kind of coolant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Coolant {
-    Flood,
-    Mist,
-    Through,
-    Air,
-    High,
-}
-
-impl Coolant {
-    /// Name of the kind in machine files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Coolant::Flood => "flood",
-            Coolant::Mist => "mist",
-            Coolant::Through => "through",
-            Coolant::Air => "air",
-            Coolant::High => "high",
-        }
-    }
 }
 
 impl Machine {

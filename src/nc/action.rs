@@ -1,7 +1,7 @@
 //! The actions of a machine that runs a program.
 
 use crate::control::{Code, Meaning, Motions, Row};
-use crate::toolpath::{Direction, FeedMode, Plane, Side, StopKind, Units};
+use crate::toolpath::{Coolant, Direction, FeedMode, Plane, Side, StopKind, Units};
 
 /// X Y Z A B C in program coordinates: lengths in the program's units, angles in degrees.
 pub type Position = [f64; 6];
@@ -71,7 +71,7 @@ pub enum Action {
     /// A tool is now in the spindle.
     Tool(f64),
     /// Coolant: flood, mist or off.
-    Coolant(Cooling),
+    Coolant(Coolant),
     /// The units of the following blocks.
     Units(Units),
     /// The feed mode of the following blocks.
@@ -200,26 +200,6 @@ impl Rotation {
             Rotation::Cw => Rotation::Ccw,
             Rotation::Ccw => Rotation::Cw,
             Rotation::Stop => Rotation::Stop,
-        }
-    }
-}
-
-/// The states of the coolant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Cooling {
-    Flood,
-    Mist,
-    Off,
-}
-
-impl Cooling {
-    /// Name of the coolant, as `simulate` writes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Cooling::Flood => "flood",
-            Cooling::Mist => "mist",
-            Cooling::Off => "off",
         }
     }
 }

@@ -95,11 +95,6 @@ impl Simulator<'_> {
         self.block.get(b'P').filter(|_| self.block.row(Group::Path).is_some())
     }
 
-    /// Whether the last block turns on coolant through the spindle.
-    pub fn cools_through(&self) -> bool {
-        self.block.means(Meaning::Through)
-    }
-
     /// The current depth of nested subprograms and loops.
     pub fn depth(&self) -> usize {
         self.frames.len()

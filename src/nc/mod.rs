@@ -55,7 +55,7 @@ mod unpointed;
 mod warnings;
 mod way;
 
-pub use action::{Action, Cooling, Cycle, Drilling, Item, Position, ROTARY, Rotation, Threading, Turn};
+pub use action::{Action, Cycle, Drilling, Item, Position, ROTARY, Rotation, Threading, Turn};
 pub(crate) use action::{Compensation, Cutter};
 pub(crate) use ahead::NextCut;
 pub(crate) use arcs::axes_of;
@@ -72,5 +72,5 @@ pub use standing::Standing;
 pub use tally::Tally;
 pub(crate) use tally::sweep;
 pub use tally::{clock, rapid_rate};
-pub(crate) use tool::{cooling as cooling_of, rotation as rotation_of};
+pub(crate) use tool::{coolant as coolant_of, rotation as rotation_of};
 pub(crate) use tool_names::FIRST as FIRST_NAMED_TOOL;

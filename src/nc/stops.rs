@@ -1,6 +1,6 @@
 //! The codes that are run last in a block: stops, the end of the program, subprogram calls and returns.
 
-use super::action::{Action, Cooling, Rotation};
+use super::action::{Action, Rotation};
 use super::block::Block;
 use super::codes::{Group, bit};
 use super::fault::{Done, refuse};
@@ -8,7 +8,7 @@ use super::out::{Next, Out};
 use super::state::State;
 use crate::control::Meaning;
 use crate::diag::Code;
-use crate::toolpath::StopKind;
+use crate::toolpath::{Coolant, StopKind};
 
 /// Whether a code of this meaning takes effect after everything else in its block.
 pub(super) fn runs_last(meaning: Meaning) -> bool {
@@ -28,7 +28,7 @@ impl State {
         for (code, row) in block.m() {
             match row.meaning {
                 Meaning::SpindleOff if !self.control.is_linuxcnc() => self.turn_spindle(Rotation::Stop, out),
-                Meaning::CoolantOff if !self.control.is_linuxcnc() => out.push(Action::Coolant(Cooling::Off)),
+                Meaning::CoolantOff if !self.control.is_linuxcnc() => out.push(Action::Coolant(Coolant::OFF)),
                 Meaning::StopProgram => out.push(Action::Stop(StopKind::Program)),
                 // the program stops, and the change of the pallet is left out
                 Meaning::Pallet => {

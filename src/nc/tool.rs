@@ -1,6 +1,6 @@
 //! The codes of a block for spindle and tool: speed, tool, coolant, compensation, tool length.
 
-use super::action::{Action, Compensation, Cooling, Cutter, Rotation};
+use super::action::{Action, Compensation, Cutter, Rotation};
 use super::arcs::axes_of;
 use super::block::Block;
 use super::codes::{ARCS, Group, Motion, bit, is_one_of};
@@ -9,7 +9,7 @@ use super::out::Out;
 use super::state::State;
 use crate::control::{Code, Kept, Meaning, Row, Rules, ToolLength, Turns};
 use crate::diag;
-use crate::toolpath::{Plane, Side};
+use crate::toolpath::{Coolant, Plane, Side};
 
 /// The rotation of the spindle after an M code of this meaning.
 pub(crate) fn rotation(meaning: Meaning) -> Option<Rotation> {
@@ -21,14 +21,13 @@ pub(crate) fn rotation(meaning: Meaning) -> Option<Rotation> {
     }
 }
 
-/// The coolant state after an M code of this meaning. Through-spindle coolant counts as flood.
-pub(crate) fn cooling(meaning: Meaning) -> Option<Cooling> {
+/// The kind of coolant that an M code of this meaning turns on; `OFF` if it turns off all kinds.
+pub(crate) fn coolant(meaning: Meaning) -> Option<Coolant> {
     match meaning {
-        Meaning::Mist => Some(Cooling::Mist),
-        Meaning::Flood | Meaning::Through | Meaning::SpindleCwCoolant | Meaning::SpindleCcwCoolant => {
-            Some(Cooling::Flood)
-        }
-        Meaning::CoolantOff => Some(Cooling::Off),
+        Meaning::Flood | Meaning::SpindleCwCoolant | Meaning::SpindleCcwCoolant => Some(Coolant::FLOOD),
+        Meaning::Mist => Some(Coolant::MIST),
+        Meaning::Through => Some(Coolant::THROUGH),
+        Meaning::CoolantOff => Some(Coolant::OFF),
         _ => None,
     }
 }
@@ -109,8 +108,8 @@ impl State {
                 }
                 Meaning::ToolChange | Meaning::ToolNumber | Meaning::Call | Meaning::Return | Meaning::End => {}
                 meaning if meaning.is_stop() => {}
-                meaning => match cooling(meaning) {
-                    Some(cooling) => out.push(Action::Coolant(cooling)),
+                meaning => match coolant(meaning) {
+                    Some(coolant) => out.push(Action::Coolant(coolant)),
                     None if rotation.is_none() => out.push(Action::LeftOut(Code::m(number), row.meaning)),
                     None => {}
                 },
@@ -182,7 +181,7 @@ impl State {
         self.tool.loaded = Some(tool);
         out.push(Action::Tool(tool));
         if self.control.traits().coolant_at_change == Kept::No {
-            out.push(Action::Coolant(Cooling::Off));
+            out.push(Action::Coolant(Coolant::OFF));
         }
         Ok(())
     }

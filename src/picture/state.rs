@@ -1,6 +1,7 @@
 //! The modal state after each block. Only the changes from block to block are stored.
 
-use crate::nc::{Action, Cooling, Modal, Position, Rotation};
+use crate::nc::{Action, Modal, Position, Rotation};
+use crate::toolpath::Coolant;
 
 /// The values of the modal state of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,9 +99,9 @@ impl Registers {
             Action::Tool(tool) => hold(Register::Tool, *tool),
             Action::Work(work) => hold(Register::Work, *work),
             Action::Length(register) => hold(Register::H, register.map_or(f64::NAN, f64::abs)),
-            Action::Coolant(Cooling::Flood) => hold(Register::Coolant, 8.0),
-            Action::Coolant(Cooling::Mist) => hold(Register::Coolant, 7.0),
-            Action::Coolant(Cooling::Off) => hold(Register::Coolant, 9.0),
+            Action::Coolant(Coolant::OFF) => hold(Register::Coolant, 9.0),
+            Action::Coolant(Coolant::MIST) => hold(Register::Coolant, 7.0),
+            Action::Coolant(_) => hold(Register::Coolant, 8.0),
             Action::Hole(hole) => {
                 hold(Register::R, hole.r);
                 hold(Register::Depth, hole.bottom);

@@ -9,8 +9,9 @@ use super::place::{At, Base, Going, Places};
 use super::travel::Travels;
 use crate::control::{Control, Meaning};
 use crate::diag::Code;
-use crate::machine::{Coolant, LETTERS, Machine, Sweep, offsets};
-use crate::nc::{Action, Cooling, FIRST_NAMED_TOOL, Item, Pace, Simulator};
+use crate::machine::{LETTERS, Machine, Sweep, offsets};
+use crate::nc::{Action, FIRST_NAMED_TOOL, Item, Pace, Simulator};
+use crate::toolpath::Coolant;
 use crate::verify::Finding;
 
 /// The state of the check while a program runs.
@@ -168,7 +169,7 @@ impl<'m> Check<'m> {
             Action::Frame if run.presets() => self.places.reframed(),
             Action::Compensation(side) => self.was_compensated |= side.is_some(),
             Action::Coolant(kind) => {
-                self.cools(*kind, run, line);
+                self.cools(*kind, line);
                 self.clocks(|clock, _| clock.stop());
             }
             Action::SpeedLimit(limit) => self.turns(*limit, "the speed limit", line),
@@ -329,15 +330,14 @@ impl<'m> Check<'m> {
         }
     }
 
-    fn cools(&mut self, kind: Cooling, run: &Simulator<'_>, line: (u64, &[u8])) {
+    fn cools(&mut self, kind: Coolant, line: (u64, &[u8])) {
         let Some(kinds) = &self.machine.coolant else { return };
-        let (kind, name) = match kind {
-            Cooling::Off => return,
-            Cooling::Mist => (Coolant::Mist, "mist"),
-            Cooling::Flood if run.cools_through() => (Coolant::Through, "coolant through the spindle"),
-            Cooling::Flood => (Coolant::Flood, "flood coolant"),
-        };
-        if !kinds.contains(&kind) {
+        if kind != Coolant::OFF && !kinds.contains(&kind) {
+            let name = match kind {
+                Coolant::FLOOD => "flood coolant",
+                Coolant::THROUGH => "coolant through the spindle",
+                kind => kind.name(),
+            };
             let message = format!("the program turns on {name}, but the machine does not have it");
             self.found(Code::PM013, name, message, "print another kind of coolant", line);
         }

@@ -4,7 +4,7 @@ use super::entry::{Entry, Found};
 use super::{AXES, Asked, Refused, Way, refuse};
 use crate::control::{Code, Control, Meaning, ToolLength};
 use crate::machine::offsets;
-use crate::nc::Rotation;
+use crate::nc::{Rotation, coolant_of};
 use crate::toolpath::{FeedMode, Plane, Units};
 
 /// Returns the text of the new program, the number of its lines before the first line copied from the old program, and
@@ -199,10 +199,11 @@ impl Written<'_> {
 
     /// The coolant. The blocks of the head may have turned the coolant on.
     fn coolant(&mut self) {
-        let switches = &self.entry.switches;
-        let kinds =
-            [(switches.flood, Meaning::Flood), (switches.mist, Meaning::Mist), (switches.through, Meaning::Through)];
-        let on: Vec<Meaning> = kinds.into_iter().filter_map(|(is_on, meaning)| is_on.then_some(meaning)).collect();
+        let coolant = self.entry.switches.coolant;
+        let on: Vec<Meaning> = [Meaning::Flood, Meaning::Mist, Meaning::Through]
+            .into_iter()
+            .filter(|meaning| coolant_of(*meaning).is_some_and(|kind| coolant.holds(kind)))
+            .collect();
         let codes = if on.is_empty() { vec![Meaning::CoolantOff] } else { on };
         let words: Vec<String> = codes.into_iter().filter_map(|meaning| self.code(meaning)).collect();
         self.blocks.extend(words);

@@ -3,10 +3,10 @@
 use super::levels::Levels;
 use super::{Asked, Refused, refuse};
 use crate::control::Meaning;
-use crate::nc::{Action, Cooling, Kind, Rotation, RunError, RunSettings, Simulator, Standing, tokens};
+use crate::nc::{Action, Kind, Rotation, RunError, RunSettings, Simulator, Standing, tokens};
 use crate::source::text_of;
 use crate::terminal::escaped;
-use crate::toolpath::{FeedMode, StopKind};
+use crate::toolpath::{Coolant, FeedMode, StopKind};
 
 /// The requested location.
 #[derive(Clone, Debug)]
@@ -42,10 +42,8 @@ pub struct Entry {
 /// Values that a program has switched on and that are not part of the modal state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Switches {
-    /// Coolant: flood, through the spindle, mist.
-    pub flood: bool,
-    pub mist: bool,
-    pub through: bool,
+    /// The kinds of coolant that are on.
+    pub coolant: Coolant,
     /// The register of the active tool length offset; negative if the length is subtracted.
     pub length: Option<f64>,
     /// The surface speed, and the limit of the spindle speed.
@@ -66,12 +64,10 @@ pub struct Said {
 
 impl Switches {
     /// Updates these values after a block was run.
-    pub fn follow(&mut self, action: &Action, run: &Simulator<'_>) {
+    pub fn follow(&mut self, action: &Action) {
         match action {
-            Action::Coolant(Cooling::Off) => (self.flood, self.mist, self.through) = (false, false, false),
-            Action::Coolant(Cooling::Mist) => self.mist = true,
-            Action::Coolant(Cooling::Flood) if run.cools_through() => self.through = true,
-            Action::Coolant(Cooling::Flood) => self.flood = true,
+            Action::Coolant(Coolant::OFF) => self.coolant = Coolant::OFF,
+            Action::Coolant(kind) => self.coolant = self.coolant.and(*kind),
             Action::Length(register) => self.length = *register,
             Action::SurfaceSpeed(limit) => self.surface = *limit,
             Action::SpeedLimit(limit) => self.limit = Some(*limit),
@@ -213,7 +209,7 @@ impl<'t> Search<'t> {
         });
         let switches = |action: &Action| match action {
             Action::Spindle(rotation, _) => *rotation != Rotation::Stop,
-            Action::Coolant(cooling) => *cooling != Cooling::Off,
+            Action::Coolant(kind) => *kind != Coolant::OFF,
             _ => false,
         };
         // the head ends before the first block that moves or starts something: such blocks must not run before the retract
@@ -259,7 +255,7 @@ impl<'t> Search<'t> {
             if matches!(item.action, Action::Length(register) if register != self.switches.length) {
                 self.levels = Levels::default();
             }
-            self.switches.follow(&item.action, run);
+            self.switches.follow(&item.action);
             self.levels.follow(&item.action, &mut at);
             match &item.action {
                 Action::Rapid { .. } => self.came_at_rapid = true,

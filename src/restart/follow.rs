@@ -292,7 +292,7 @@ impl<'a> Side<'a> {
         };
         self.over = !more;
         for item in &self.items {
-            self.switches.follow(&item.action, &self.run);
+            self.switches.follow(&item.action);
             let counts = matches!(
                 item.action,
                 Action::Rapid { .. }

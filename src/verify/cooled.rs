@@ -4,7 +4,7 @@
 use super::cut::State;
 use crate::control::{Code, Control, Meaning};
 use crate::lang::Coolant;
-use crate::nc::{Cooling, cooling_of};
+use crate::nc::coolant_of;
 use crate::render::{CoolantCodes, coolant_codes};
 use crate::sema::Settings;
 
@@ -39,7 +39,7 @@ impl Codes {
         let Some((_, codes)) = self.0.iter().find(|(own, _)| *own == kind) else {
             return (kind == Coolant::THROUGH && control.has(Meaning::Through)).then_some(kind);
         };
-        let printed = Code::of(b'M', codes.on).and_then(|code| control.meaning(code)).and_then(kind_of);
+        let printed = Code::of(b'M', codes.on).and_then(|code| control.meaning(code)).and_then(coolant_of);
         Some(printed.filter(|printed| *printed != Coolant::OFF).unwrap_or(kind))
     }
 
@@ -47,58 +47,24 @@ impl Codes {
     pub fn after(&self, code: Code, coolant: Option<Coolant>) -> Option<Coolant> {
         let is = |own: f64| code.letter == b'M' && own == code.value();
         self.0.iter().fold(coolant, |coolant, (kind, own)| match own.own_off {
-            _ if is(own.on) => with(coolant, *kind),
+            _ if is(own.on) => Some(coolant.unwrap_or_default().then(*kind)),
             Some(off) if is(off) => coolant.map(|coolant| coolant.without(*kind)),
             _ => coolant,
         })
     }
 }
 
-/// The kind of coolant that a code of this meaning turns on; `OFF` if it turns off all kinds.
-pub fn kind_of(meaning: Meaning) -> Option<Coolant> {
-    cooling_of(meaning).map(|cooling| kind_run(cooling, meaning == Meaning::Through))
-}
-
-/// The kind of coolant that the simulator has turned on. The simulator counts coolant through the spindle as flood.
-fn kind_run(cooling: Cooling, is_through: bool) -> Coolant {
-    match cooling {
-        Cooling::Flood if is_through => Coolant::THROUGH,
-        Cooling::Flood => Coolant::FLOOD,
-        Cooling::Mist => Coolant::MIST,
-        Cooling::Off => Coolant::OFF,
-    }
-}
-
-/// The coolant after a code that turns on this kind. Flood and mist replace each other.
-pub fn with(coolant: Option<Coolant>, kind: Coolant) -> Option<Coolant> {
-    let coolant = coolant.unwrap_or(Coolant::OFF);
-    Some(match kind {
-        Coolant::OFF => Coolant::OFF,
-        Coolant::FLOOD | Coolant::MIST => coolant.without(Coolant::FLOOD.and(Coolant::MIST)).and(kind),
-        _ => coolant.and(kind),
-    })
-}
-
-/// The coolant after an action of the simulator.
-pub fn after_run(coolant: Option<Coolant>, cooling: Cooling, is_through: bool) -> Option<Coolant> {
-    with(coolant, kind_run(cooling, is_through))
-}
-
 /// Compares the coolant of job and program. Coolant that the job does not request is allowed, because it does no harm.
-/// Coolant through the spindle counts as flood. Of other kinds and of several kinds at once, only a dry cut is found.
+/// Of kinds other than flood, mist and through the spindle, only a dry cut is found.
 pub fn differs([wanted, is]: [&State; 2]) -> Option<String> {
     let (wanted, is) = (wanted.coolant?, is.coolant?);
-    let group = [Coolant::FLOOD.and(Coolant::THROUGH), Coolant::MIST].into_iter().find(|group| group.holds(wanted));
-    let agrees = match group {
-        _ if wanted == Coolant::OFF => true,
-        Some(group) => group.each().any(|kind| is.holds(kind)),
-        None => is != Coolant::OFF,
-    };
+    let by_control = [Coolant::FLOOD, Coolant::MIST, Coolant::THROUGH];
+    let agrees = wanted.each().all(|kind| if by_control.contains(&kind) { is.holds(kind) } else { is != Coolant::OFF });
     (!agrees).then(|| format!("the coolant is {}, but {} in the job", name(is), name(wanted)))
 }
 
 /// The kinds by their names, for messages.
 pub fn name(coolant: Coolant) -> String {
-    let names: Vec<_> = coolant.each().map(|kind| if kind == Coolant::FLOOD { "flood" } else { kind.name() }).collect();
+    let names: Vec<_> = coolant.each().map(Coolant::name).collect();
     if names.is_empty() { "off".to_owned() } else { names.join(" and ") }
 }

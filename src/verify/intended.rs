@@ -1,7 +1,6 @@
 //! The job's side of the comparison: converts the events of the job to the cuts and paths that the program must make.
 
 use super::beside::Compensated;
-use super::cooled;
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::form_values::{by, made_by};
@@ -14,7 +13,7 @@ use crate::control::{Control, Group, Meaning, ToolLength};
 use crate::cycle::{Steps, check};
 use crate::diag::Diag;
 use crate::lang::{Beam, Coolant, Machine};
-use crate::nc::{Kind, Rotation, Turn, rotation_of, tokens};
+use crate::nc::{Kind, Rotation, Turn, coolant_of, rotation_of, tokens};
 use crate::toolpath::{
     Arc, Axes, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind, Tool,
     ToolChange, Units,
@@ -266,10 +265,9 @@ impl Job {
                 (Meaning::Dwell, _) => to.wait(f64::NAN),
                 (meaning, _) if meaning.turns_spindle() || meaning.cools() => {
                     self.state.rotation = rotation_of(meaning).or(self.state.rotation);
-                    self.state.coolant = match cooled::kind_of(meaning) {
-                        Some(kind) => cooled::with(self.state.coolant, kind),
-                        None => self.state.coolant,
-                    };
+                    if let Some(kind) = coolant_of(meaning) {
+                        self.state.coolant = Some(self.state.coolant.unwrap_or_default().then(kind));
+                    }
                 }
                 (_, Some(Group::Motion | Group::Distance | Group::Work | Group::Length | Group::Compensation)) => {
                     axes = true;

@@ -294,7 +294,7 @@ fn the_form_of_a_haas_says_coolant_through_the_spindle_before_the_spindle() {
     assert_eq!(printed.iter().filter(|line| line.contains("M3")).count(), 3, "{printed:#?}"); // two tools, and M30
 }
 
-/// A dry cut is found for each kind of coolant. Coolant through the spindle counts as flood.
+/// A dry cut is found for each kind of coolant, and flood, mist and coolant through the spindle in place of each other.
 #[test]
 fn a_dry_cut_is_found_for_each_kind() {
     let folder = Folder::new("dry");
@@ -306,20 +306,27 @@ fn a_dry_cut_is_found_for_each_kind() {
     for (coolant, printed, replaced, rules, finding) in [
         ("\"through\"", "M88", "M88", own, ""),
         ("\"through\"", "M88", "", own, "the coolant is off, but through in the job"),
-        ("\"through\"", "M88", "M8", own, ""),
+        ("\"through\"", "M88", "M8", own, "the coolant is flood, but through in the job"),
         ("\"through\"", "M88", "M7", own, "the coolant is mist, but through in the job"),
         ("\"through\"", "M88", "M12", own, "the coolant is air, but through in the job"),
         ("\"through\"", "M88", "M88\nM89", own, "the coolant is off, but through in the job"),
-        ("\"through\"", "M88", "M88\nM8\nM89", own, ""),
+        ("\"through\"", "M88", "M88\nM8\nM89", own, "the coolant is flood, but through in the job"),
+        ("\"through\"", "M88", "M8\nM88", own, ""),
         ("\"through\"", "M88", "", control, "the coolant is off, but through in the job"),
-        ("\"flood\"", "M8", "M88", own, ""),
+        ("\"flood\"", "M8", "M88", own, "the coolant is through, but flood in the job"),
         ("\"flood\"", "M8", "M12", own, "the coolant is air, but flood in the job"),
         ("\"mist\"", "M7", "M88", own, "the coolant is through, but mist in the job"),
         ("\"air\"", "M12", "M12", own, ""),
         ("\"air\"", "M12", "", own, "the coolant is off, but air in the job"),
         ("[\"through\",\"air\"]", "M12", "M12", own, ""),
         ("[\"through\",\"air\"]", "M88\nN50 M12", "", own, "the coolant is off, but through and air in the job"),
-        ("[\"through\",\"air\"]", "M88\nN50 M12", "\nN50 M12", own, ""),
+        (
+            "[\"through\",\"air\"]",
+            "M88\nN50 M12",
+            "\nN50 M12",
+            own,
+            "the coolant is air, but through and air in the job",
+        ),
         // without a form, the code of air is unknown
         ("\"air\"", "M12", "", control, ""),
     ] {

@@ -6,8 +6,8 @@ use std::io::Cursor;
 
 use crate::support::{check_file, control, job, render_checked, render_sample, root, sample_form, samples};
 use postform::internals::control::Control;
-use postform::internals::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
-use postform::toolpath::{Direction, FeedMode, Plane, Units};
+use postform::internals::nc::{Action, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
+use postform::toolpath::{Coolant, Direction, FeedMode, Plane, Units};
 use serde_json::Value;
 
 /// An action, in millimetres and machine coordinates.
@@ -128,9 +128,9 @@ impl Run {
                     self.done.push((line, Done::End));
                 }
                 Action::Spindle(rotation, speed) => turning = spindle(*rotation, *speed),
-                Action::Coolant(Cooling::Flood) => coolant.0 = true,
-                Action::Coolant(Cooling::Mist) => coolant.1 = true,
-                Action::Coolant(Cooling::Off) => coolant = (false, false),
+                Action::Coolant(Coolant::FLOOD) => coolant.0 = true,
+                Action::Coolant(Coolant::MIST) => coolant.1 = true,
+                Action::Coolant(_) => coolant = (false, false),
                 _ => {}
             }
         }

@@ -3,7 +3,8 @@
 use crate::support::control;
 use std::io::Cursor;
 
-use crate::support::{check, job_options, mill, plain_post};
+use crate::support::folder::{Folder, err, out};
+use crate::support::{check, job_options, mill, plain_post, root};
 use postform::internals::compile::compile;
 use postform::internals::nc::{JobOptions, RunSettings, read_program};
 use postform::internals::render::{Options, Renderer};
@@ -11,6 +12,26 @@ use postform::toolpath::ReadError;
 use postform::{Job, NoFiles, Options as PostOptions, Post, Source, Verdict};
 
 const HEAD: &str = "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1. M8\n";
+
+/// Coolant through the spindle stays coolant through the spindle. A form without a code for it refuses the job.
+#[test]
+fn coolant_through_the_spindle_is_not_flood() {
+    let folder = Folder::new("through-job");
+    let program =
+        "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1. M494\nG1 Z-.1 F5.\nM8\nG1 X1.\nG0 Z1.\nM9\nM30\n";
+    folder.write("old.nc", program);
+    let render = |form: &str| {
+        let form = root().join("postforms").join(form).display().to_string();
+        folder.run(&["render", "old.nc", "--form", &form, "--job-control", "brother", "--program", "1"])
+    };
+    let brother = render("brother.pf");
+    let text = out(&brother);
+    let codes: Vec<_> = text.split_whitespace().filter(|word| ["M494", "M8"].contains(word)).collect();
+    assert_eq!(codes, ["M494", "M8"], "{text}");
+    assert!(err(&brother).contains("identical"), "{}", err(&brother));
+    let fanuc = err(&render("fanuc.pf"));
+    assert!(fanuc.contains("PR054") && fanuc.contains("no coolant `through`"), "{fanuc}");
+}
 
 /// The new program with its warnings, or the error code of the refusal.
 fn printed(program: &str) -> Result<(String, Vec<String>), String> {

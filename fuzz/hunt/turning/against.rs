@@ -3,9 +3,9 @@
 use std::io::Cursor;
 
 use postform::internals::control::Control;
-use postform::internals::nc::{Action, Cooling, Rotation, RunError, RunSettings, Simulator, Unpointed};
+use postform::internals::nc::{Action, Rotation, RunError, RunSettings, Simulator, Unpointed};
 use postform::internals::verify::{Motions, compare_motions};
-use postform::toolpath::{Direction, FeedMode, Side, StopKind, Units};
+use postform::toolpath::{Coolant, Direction, FeedMode, Side, StopKind, Units};
 
 use super::executor::{Kind, Move, Point};
 
@@ -69,7 +69,7 @@ pub fn moves(text: &str, settings: RunSettings) -> Result<Vec<Move>, (usize, Str
                 Action::Length(register) => {
                     now.tool = (now.tool / 100.0).floor() * 100.0 + register.unwrap_or(0.0);
                 }
-                Action::Coolant(cooling) => now.coolant = if *cooling == Cooling::Off { 9.0 } else { 8.0 },
+                Action::Coolant(cooling) => now.coolant = if *cooling == Coolant::OFF { 9.0 } else { 8.0 },
                 Action::Stop(kind) => {
                     let code = if *kind == StopKind::Optional { 1.0 } else { 0.0 };
                     go(Kind::Dwell(-1.0 - code), here, 0.0, &now);

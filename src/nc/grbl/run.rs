@@ -3,13 +3,13 @@
 use super::check::check;
 use super::error::refuse;
 use crate::control::Meaning;
-use crate::nc::action::{Action, Cooling, Rotation};
+use crate::nc::action::{Action, Rotation};
 use crate::nc::block::Block;
 use crate::nc::codes::{Group, Motion};
 use crate::nc::fault::Done;
 use crate::nc::out::{Next, Out};
 use crate::nc::state::State;
-use crate::toolpath::{Direction, FeedMode, Plane, StopKind, Units};
+use crate::toolpath::{Coolant, Direction, FeedMode, Plane, StopKind, Units};
 
 impl State {
     /// Runs a block. A refused block has no effect.
@@ -119,7 +119,7 @@ impl State {
             self.drive.spindle = Rotation::Stop;
             out.push(Action::Spindle(Rotation::Stop, self.drive.speed));
         }
-        out.push(Action::Coolant(Cooling::Off));
+        out.push(Action::Coolant(Coolant::OFF));
         out.push(Action::End);
     }
 }

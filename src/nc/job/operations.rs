@@ -4,7 +4,7 @@
 use super::fault::{Done, unsaid, warning};
 use super::reader::{Reader, Waiting};
 use super::switches::Switches;
-use crate::nc::action::{Cooling, Rotation};
+use crate::nc::action::Rotation;
 use crate::toolpath::{Coolant, Event, First, Tool, ToolChange};
 
 impl Reader<'_> {
@@ -82,8 +82,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    pub(super) fn coolant(&mut self, cooling: Cooling) {
-        if !self.wanted.cool(cooling) {
+    pub(super) fn coolant(&mut self, kind: Coolant) {
+        if !self.wanted.cool(kind) {
             let message = "flood and mist are on at once, but the job contains only the coolant that was turned on \
                            later";
             self.warnings.push(warning(self.place.line, message, "let the form print the other coolant"));

@@ -1,6 +1,6 @@
 //! The switches of a machine: spindle, coolant, work offset. In a job, events before the next move set these switches.
 
-use crate::nc::action::{Cooling, Rotation};
+use crate::nc::action::Rotation;
 use crate::toolpath::{Coolant, Event, Spindle, SpindleTurn};
 
 /// The switches of a machine. The reader compares the state that its events have set with the state that the program requires.
@@ -16,17 +16,13 @@ pub(super) struct Switches {
 }
 
 impl Switches {
-    /// Handles a coolant code. Returns `false` if both flood and mist would be on. A job can have only one of the two,
-    /// and gets the later one.
-    pub fn cool(&mut self, cooling: Cooling) -> bool {
-        let wanted = match cooling {
-            Cooling::Flood => Coolant::FLOOD,
-            Cooling::Mist => Coolant::MIST,
-            Cooling::Off => Coolant::OFF,
-        };
-        let before = self.coolant.replace(wanted);
-        let flows = |coolant| matches!(coolant, Coolant::FLOOD | Coolant::MIST);
-        !flows(wanted) || before.is_none_or(|before| !flows(before) || before == wanted)
+    /// Handles a code that turns on this kind of coolant, or all kinds off. Returns `false` if both flood and mist would be
+    /// on. A job can have only one of the two, and gets the later one.
+    pub fn cool(&mut self, kind: Coolant) -> bool {
+        let before = self.coolant.unwrap_or_default();
+        let after = before.then(kind);
+        self.coolant = Some(after);
+        kind == Coolant::OFF || after.is_same(before.and(kind))
     }
 
     /// The state of the spindle as an event of a job contains it.

@@ -381,8 +381,8 @@ impl<'a> Program<'a> {
                     self.hazard(Code::PV013, item.line, message, "end it with G80");
                 }
             }
-            Action::Coolant(cooling) => {
-                self.state.coolant = cooled::after_run(self.state.coolant, *cooling, self.simulator.cools_through());
+            Action::Coolant(kind) => {
+                self.state.coolant = Some(self.state.coolant.unwrap_or_default().then(*kind));
             }
             Action::LeftOut(code, meaning) => {
                 let coded = (code.letter, code.tenths);

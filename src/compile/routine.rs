@@ -119,13 +119,6 @@ impl Routine {
                 let literal = &program.literals[index as usize];
                 returns |= literal.letter == b'G' && literal.value == program.settings.return_plane[1];
             }
-            // the last code decides: a code with which the control moves by itself, or a code that ends these motions
-            if let Some(code) = typed_code(op, program) {
-                let moves = control.moves_by_itself(code);
-                if moves || control.meaning(code).is_some_and(Meaning::ends_cycle) {
-                    stays = moves;
-                }
-            }
         }
         if self.count.is_some_and(|count| count >= lines) {
             repeat = self.ops.end;

@@ -357,6 +357,14 @@ impl Control {
         code.letter == b'G' && (self.meaning(code).is_some_and(Meaning::moves_by_itself) || self.calls(code))
     }
 
+    /// Whether the control makes its own moves after these codes: the last code that begins or ends such moves decides.
+    #[doc(hidden)]
+    pub fn leaves_cycle(&self, codes: impl IntoIterator<Item = Code>) -> bool {
+        codes.into_iter().fold(false, |active, code| {
+            self.moves_by_itself(code) || active && !self.meaning(code).is_some_and(Meaning::ends_cycle)
+        })
+    }
+
     /// Whether the control refuses a code. False if not all codes of the control are known.
     #[doc(hidden)]
     pub fn refuses(&self, code: Code) -> bool {

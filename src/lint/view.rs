@@ -349,6 +349,11 @@ impl<'a> Body<'a> {
         self.words().any(|word| word.code().is_some_and(|code| self.codes.moves_by_itself(code)))
     }
 
+    /// Whether a cycle of the control is still active after the last word of the body.
+    pub fn leaves_cycle(&self) -> bool {
+        self.codes.leaves_cycle(self.words().filter_map(Word::code))
+    }
+
     /// Whether one of these variables is printed before or in the block that starts a cycle of the control. If no block
     /// starts a cycle, all lines of the body are searched.
     pub fn begins_with(&self, vars: &[VarId]) -> bool {

@@ -1,6 +1,5 @@
 //! PF409: a cycle of the control is never cancelled. The cycle stays active, so the next move would drill.
 
-use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
@@ -14,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if view.works_once(code)
             || sequence.cancel.is_some()
             || uncounted
-            || body.meaning(|meaning| meaning == Meaning::CycleEnd).is_some()
+            || !body.leaves_cycle()
         {
             continue;
         }

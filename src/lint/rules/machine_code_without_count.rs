@@ -1,13 +1,12 @@
 //! PF404: a sequence of several lines starts a cycle of the control. Without a count, each line drills the hole again.
 
-use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
-        let ends = view.works_once(code) || body.meaning(|meaning| meaning == Meaning::CycleEnd).is_some();
+        let ends = view.works_once(code) || !body.leaves_cycle();
         if ends || sequence.count.is_some() || body.most_lines() < 2 {
             continue;
         }

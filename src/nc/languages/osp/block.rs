@@ -134,11 +134,7 @@ impl Words<'_> {
                 Ok(())
             }
             meaning => {
-                let ends = matches!(
-                    meaning,
-                    Some(Meaning::CycleEnd | Meaning::Rapid | Meaning::Line | Meaning::ArcCw | Meaning::ArcCcw)
-                );
-                self.said.ends |= ends;
+                self.said.ends |= meaning.is_some_and(Meaning::ends_cycle);
                 self.block.g_word(value, column, control)
             }
         }

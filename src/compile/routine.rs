@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::program::{CycleStyle, Op, Program};
 use super::sources::{BARE, Sources, Step, of_first_hole};
-use crate::control::{Code, Meaning};
+use crate::control::Code;
 use crate::lang::{TextSet, VarId, VarSet};
 use crate::sema::Target;
 use crate::span::Span;
@@ -100,7 +100,7 @@ impl Routine {
     /// Determines the properties of the routine from all its operations.
     pub(super) fn look_at(&mut self, program: &Program) {
         let (mut vars, mut texts) = (VarSet::default(), TextSet::default());
-        let (mut lines, mut returns, mut stays) = (0, false, false);
+        let (mut lines, mut returns) = (0, false);
         let control = program.settings.codes();
         let mut repeat = self.ops.start;
         for i in self.steps() {
@@ -126,7 +126,7 @@ impl Routine {
         self.repeat = repeat;
         self.vars = vars;
         self.texts = texts;
-        self.stays = stays;
+        self.stays = control.leaves_cycle(self.steps().filter_map(|i| typed_code(program.ops[i], program)));
         self.returns = returns || self.vars.has(VarId::Retplane) || self.vars.has(VarId::Rplane);
         let steps = self.steps().filter_map(|i| Some((step(program.ops[i], program)?, i >= repeat)));
         self.first_only = of_first_hole(steps, self.count.is_some());

@@ -186,10 +186,6 @@ impl<'s> Selecting<'s> {
             set: held.set.iter().chain(properties).cloned().collect(),
             ..change.clone()
         };
-        if let First::Rapid(first) = &change.first {
-            let unknown = self.linear & !self.at.given;
-            self.goes(&Axes { given: first.given & unknown, ..*first });
-        }
         self.fills = true;
         flow(self.sink.tool_change(change, place))
     }

@@ -296,11 +296,11 @@ impl Want {
             shape.needs(Meaning::SurfaceSpeed)?;
         }
         self.put_spindle(spindle, shape);
-        if let Some(max) = spindle.max {
-            if !shape.program.printed.has(VarId::Maxrpm) {
-                let message = format!("the spindle is limited to {max}, but the form does not print [maxrpm]");
-                return fault(Code::PR038, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
-            }
+        if let Some(max) = spindle.max
+            && !shape.program.printed.has(VarId::Maxrpm)
+        {
+            let message = format!("the spindle is limited to {max}, but the form does not print [maxrpm]");
+            return fault(Code::PR038, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
         }
         self.changed = true;
         Ok(())

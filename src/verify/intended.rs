@@ -15,8 +15,8 @@ use crate::diag::Diag;
 use crate::lang::{Beam, Coolant, Machine};
 use crate::nc::{Kind, Rotation, Turn, coolant_of, rotation_of, tokens};
 use crate::toolpath::{
-    Arc, Axes, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind, Tool,
-    ToolChange, Units,
+    Arc, Axes, Direction, EdmAction, Event, FeedMode, First, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind,
+    Tool, ToolChange, Units,
 };
 
 /// Current state of the job.
@@ -183,7 +183,8 @@ impl Job {
     }
 
     fn tool_change(&mut self, change: &ToolChange, to: &mut impl Intent) -> Done {
-        if let Some(tool) = change.changes_to(self.tool) {
+        let tool = self.tool;
+        if let Some(tool) = change.changes_to(tool) {
             self.tool = Some(tool.number);
             self.state.tool = Some(tool.number);
             if let Some(name) = &tool.name {
@@ -220,8 +221,17 @@ impl Job {
         if let Some(coolant) = change.coolant {
             self.state.coolant = self.expectation.coolant.of_job(coolant, self.control);
         }
+        let work = self.state.work;
         if let Some(work) = change.work {
             self.work(work, to);
+        }
+        if let First::Rapid(first) = &change.first
+            && work.is_some()
+            && work != self.state.work
+            && change.changes_to(tool).is_none()
+        {
+            // the numbers of the position in the work offset before have no meaning in the new one
+            self.at = self.target(&Axes { given: first.given & 0b111, ..*first });
         }
         self.mode = change.feed_mode.unwrap_or(FeedMode::PerMinute);
         self.feed = change.feed;

@@ -104,6 +104,33 @@ fn a_part_does_not_take_the_position_of_another_tool_or_work_offset() {
     }
 }
 
+/// The rapids of an operation on a lathe stay apart in a part, because both axes at once can go through a shoulder.
+#[test]
+fn a_part_keeps_the_order_of_the_rapids() {
+    let text = std::fs::read_to_string(root().join("postforms/haas-lathe.pf")).unwrap();
+    let post = Post::compile(Source::from_text("haas-lathe.pf", text), &NoFiles).unwrap();
+    let operation = |tool: u32, path: &str| {
+        format!(
+            r#"{{"tool":{tool},"work":54,"spindle":{{"speed":800,"direction":"cw"}},"feed":0.2,"feed_mode":"per_rev","path":[{path}]}}"#
+        )
+    };
+    let turn = r#"{"rapid":[2,30]},{"line":[-20,30]},{"rapid":[2,50]}"#;
+    let groove = r#"{"rapid":[-40]},{"rapid":[null,41]},{"line":[-40,30]},{"rapid":[-40,50]}"#;
+    let text = format!(
+        r#"{{"postform":1,"program":1,"units":"mm","machine":"lathe","tools":[{{"number":1,"length_offset":1}},{{"number":2,"length_offset":2}}],"operations":[{},{},{}]}}"#,
+        operation(1, turn),
+        operation(2, turn),
+        operation(1, groove)
+    );
+    let mut part = Job::json(&text);
+    part.reading.select.only = vec![1];
+    let part = post.render(part, &Options::default()).unwrap().text().to_owned();
+    for program in [print(&post, &text, None).unwrap(), print(&post, &text, Some(3)).unwrap(), part] {
+        let words: Vec<&str> = program.lines().filter_map(|line| Some(line.split_once(' ')?.1)).collect();
+        assert!(words.windows(2).any(|two| two == ["G0 Z-40.", "X82."]), "{program}");
+    }
+}
+
 /// A value of a property applies only to its own operation; the value of a variable stays.
 #[test]
 fn a_property_of_a_left_out_operation_ends_with_it() {

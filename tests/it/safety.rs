@@ -1,7 +1,8 @@
 //! The safety rules of rendering. Every test prints a short program for one rule and checks its blocks.
 
 use crate::support;
-use crate::support::{job, mill, path_lines, program, render, wrong};
+use crate::support::folder::{Folder, err};
+use crate::support::{job, mill, path_lines, plain_post, program, render, wrong};
 use postform::diag::Location;
 use postform::internals::compile::compile;
 use postform::internals::json::read_lines;
@@ -885,6 +886,39 @@ fn in_another_offset_the_tool_stays_at_the_jobs_height() {
     );
     let at = lines.iter().position(|line| line == "G55").unwrap_or_else(|| panic!("{lines:?}"));
     assert_eq!(lines[at + 1], "G0 X5. Y5. Z.8", "{lines:?}");
+}
+
+/// An operation with the same tool and another work offset begins at its first position, in whatever order its rapids give
+/// the axes. The numbers of the last position in the work offset before are not used. The proof finds a rapid to them.
+#[test]
+fn in_another_work_offset_an_operation_begins_at_its_first_position() {
+    let post = plain_post("haas.pf");
+    let folder = Folder::new("first-position");
+    folder.write("form.pf", &post);
+    for (path, expected) in [
+        (r#"{"rapid":[10,10]},{"rapid":[null,null,2]}"#, ["G55 X10. Y10.", "Z2."]),
+        (r#"{"rapid":[null,null,2]},{"rapid":[10,10]}"#, ["G55 X10. Y10.", "Z2."]),
+        (r#"{"rapid":[10]},{"rapid":[null,10,2]}"#, ["G55 X10. Y10.", "Z2."]),
+    ] {
+        let operation = |work: u32, path: &str| {
+            format!(
+                r#"{{"tool":1,"work":{work},"spindle":{{"speed":2000,"direction":"cw"}},"feed":100,"path":[{path}]}}"#
+            )
+        };
+        let first = operation(54, r#"{"rapid":[0,0,20]},{"line":[0,0,-5]},{"line":[90,0,-5]}"#);
+        let second = operation(55, &format!(r#"{path},{{"line":[10,10,-1]}},{{"rapid":[10,10,20]}}"#));
+        let text = format!(
+            r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1}}],"operations":[{first},{second}]}}"#
+        );
+        let lines = program(&post, &text);
+        let words: Vec<&str> = lines.iter().map(|line| line.split_once(' ').map_or("", |(_, words)| words)).collect();
+        let at = words.iter().position(|line| line.starts_with("G55")).unwrap_or_else(|| panic!("{lines:?}"));
+        assert_eq!(words[at..at + 2], expected, "{path}: {lines:?}");
+        folder.write("job.json", &text);
+        folder.write("low.nc", lines.join("\n").replace(" Z2.", " Z-5.\nZ2."));
+        let low = folder.run(&["verify", "job.json", "--form", "form.pf", "--nc", "low.nc"]);
+        assert!(err(&low).contains("a rapid goes to X10 Y10 Z-5, which is below the job's rapids"), "{}", err(&low));
+    }
 }
 
 /// Some cycles are printed by the sequences of other cycles.

@@ -10,11 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
         let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // PF404 reports these sequences
-        if view.works_once(code)
-            || sequence.cancel.is_some()
-            || uncounted
-            || !body.leaves_cycle()
-        {
+        if view.works_once(code) || sequence.cancel.is_some() || uncounted || !body.leaves_cycle() {
             continue;
         }
         let mut diag = Diag::new(Code::PF409, format!("{} leaves {code} active", body.name()))

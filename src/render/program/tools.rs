@@ -49,12 +49,18 @@ pub fn tool_change(
         return fault(Code::PJ006, "the operation has no tool", help);
     }
     want.standing_told = false;
+    let work = want.get(VarId::Work);
     set_conditions(change, new.is_some(), shape, want, out)?;
     want.texts.operation(change, shape);
     if let Some(tool) = new {
         said.from_home = false;
         change_tool(tool, change, shape, want, said, out)?;
     } else {
+        if let First::Rapid(first) = &change.first
+            && work.is_some_and(|work| want.get(VarId::Work) != Some(work))
+        {
+            said.stand.goes_to_first(first, shape);
+        }
         operation_comment(change, None, &mut Cx { shape, want, said, out })?;
         change.tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))?;
     }

@@ -72,6 +72,13 @@ impl Stand {
         self.left_at = None;
     }
 
+    /// Takes the first position of an operation as the position in a new work offset. The numbers of the position in the
+    /// work offset before have no meaning there.
+    pub fn goes_to_first(&mut self, first: &Axes, shape: &Shape) {
+        let linear = Axes { given: first.given & ((1 << shape.linear) - 1), ..*first };
+        self.position = self.target(&linear, shape);
+    }
+
     /// The angle of a rotary axis.
     pub fn angle(&self, axis: usize) -> Option<f64> {
         self.position.get(axis).or(self.angles.stands(axis))

@@ -9,8 +9,7 @@ use super::words::Word;
 use crate::diag::Code;
 use crate::lang::Machine;
 use crate::toolpath::{
-    About, Axes, Coolant, CycleSpec, Event, FeedMode, First, Hold, Place, Sink, Start, StopKind, Tool, ToolChange,
-    Units,
+    About, Axes, Coolant, CycleSpec, Event, FeedMode, Hold, Place, Sink, Start, StopKind, Tool, ToolChange, Units,
 };
 
 /// Tolerance for the distance of a turning tool from the plane of z and x, which allows for rounding.
@@ -302,18 +301,10 @@ impl<'s> Job<'s> {
     /// A new operation with this tool and the current coolant.
     fn operation(&self, tool: Option<Tool>) -> ToolChange {
         ToolChange {
-            name: None,
             tool,
-            spindle: None,
             coolant: self.tools.coolant,
-            reloads: false,
-            work: None,
-            feed: None,
-            plunge: None,
             feed_mode: self.turns_part().then_some(FeedMode::PerRev),
-            comment: None,
-            set: Vec::new(),
-            first: First::Nothing,
+            ..ToolChange::default()
         }
     }
 

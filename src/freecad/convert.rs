@@ -66,16 +66,12 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
                 let change = ToolChange {
                     name: Some(step.label.clone()),
                     tool: Some(operation.controller.tool.clone()),
-                    reloads: false,
                     spindle: Some(Spindle { speed: spindle.0, turn: Some(spindle.1), ..Spindle::default() }),
                     coolant: Some(operation.coolant),
                     work: Some(*work),
-                    feed: None,
-                    plunge: None,
                     feed_mode: Some(FeedMode::PerMinute),
                     comment: Some(step.label.clone()),
-                    set: Vec::new(),
-                    first: First::Nothing,
+                    ..ToolChange::default()
                 };
                 hold.tool_change(change, place)?;
                 if let Some(comment) = &operation.comment {

@@ -9,8 +9,8 @@ use std::collections::HashMap;
 use super::held::{is_variable, missing_of_spindle};
 use super::subs::Subs;
 use crate::diag::{Code, Diag};
-use crate::lang::{Coolant, Machine};
-use crate::toolpath::{Axes, Event, First, Flow, Place, Sink, Spindle, Start, Stop, Tool, ToolChange, key};
+use crate::lang::Coolant;
+use crate::toolpath::{Axes, Event, First, Flow, JobAxes, Place, Sink, Spindle, Start, Stop, Tool, ToolChange, key};
 
 /// Passes on the events of several jobs as those of one job.
 pub(super) struct Joining<'s> {
@@ -160,25 +160,16 @@ impl<'s> Joining<'s> {
         Err(Box::new(self.wrong(self.part - 1, &why, help, place)))
     }
 
-    fn is_of(&self, machine: Machine) -> bool {
-        self.start.as_ref().is_some_and(|start| start.machine == machine)
-    }
-
     /// An axis that the first move must contain but does not contain.
     fn missing_axis(&self, change: &ToolChange) -> Option<char> {
-        // a lathe's axes are Z and X, in this order
-        let (usual, names) = match self.is_of(Machine::Mill) {
-            true => (0b111, ['X', 'Y', 'Z', 'A', 'B', 'C']),
-            false if self.is_of(Machine::Lathe) => (0b011, ['Z', 'X', 'Y', 'A', 'B', 'C']),
-            false => (0b011, ['X', 'Y', 'Z', 'A', 'B', 'C']),
-        };
+        let axes = JobAxes::of(self.start.as_ref()?.machine);
         let given = match &change.first {
             First::Rapid(Axes { given, .. }) => *given,
             First::Hole(_, hole) => hole.at.given,
             First::Cut | First::Nothing => 0,
         };
-        let missing = (usual | self.held.axes) & !given;
-        names.into_iter().enumerate().find(|(axis, _)| missing & 1 << axis != 0).map(|(_, axis)| axis)
+        let missing = (axes.first | self.held.axes) & !given;
+        axes.names.into_iter().enumerate().find(|(axis, _)| missing & 1 << axis != 0).map(|(_, axis)| axis)
     }
 
     /// Checks that this tool number means the same tool in all jobs so far.

@@ -15,8 +15,9 @@ use super::left_out_text::{Left, Other};
 use super::subs::Subs;
 use crate::control::Control;
 use crate::diag::{Code, Diag};
-use crate::lang::Machine;
-use crate::toolpath::{Axes, Call, Event, First, Flow, Hold, Hole, Place, Sink, Start, Stop, ToolChange, flow};
+use crate::toolpath::{
+    Axes, Call, Event, First, Flow, Hold, Hole, JobAxes, Place, Sink, Start, Stop, ToolChange, flow,
+};
 
 /// The selected operations, by their tools, their numbers or their work offsets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -313,11 +314,8 @@ impl<'s> Selecting<'s> {
 
     /// The head, without the tools that are left out.
     fn start(&mut self, start: &Start, place: Place) -> Flow {
-        (self.linear, self.depth) = match start.machine {
-            Machine::Mill => (0b111, 0b100),
-            Machine::Lathe => (0b111, 0b001),
-            Machine::Edm => (0b1111, 0),
-        };
+        let axes = JobAxes::of(start.machine);
+        (self.linear, self.depth) = (axes.linear, axes.depth_bit());
         let Some(order) = &start.tool_order else { return self.sink.event(Event::Start(start), place) };
         let mut progress = Progress::default();
         let mut taken = order.clone();

@@ -5,14 +5,14 @@ use crate::cycle::{Defaults, Plan, Step, Steps, plan, thread_passes};
 use crate::lang::Machine;
 use crate::times::{Curve, Planner, Rates, Way};
 use crate::toolpath::{
-    Arc, Axes, CycleSpec, Direction, Event, FeedMode, Hole, PlaneArc, Spindle, Thread, ToolChange, Units,
+    Arc, Axes, CycleSpec, Direction, Event, FeedMode, Hole, JobAxes, PlaneArc, Spindle, Thread, ToolChange, Units,
 };
 
 /// The current position of the tool, feed and spindle, from which moves are measured.
 #[derive(Debug)]
 pub struct Motion {
     defaults: Defaults,
-    is_lathe: bool,
+    machine: Machine,
     at: Axes,
     feed: Option<f64>,
     mode: FeedMode,
@@ -37,7 +37,7 @@ impl Motion {
         Motion {
             // a rigid tap moves in and out at its feed, in a cycle or in single moves
             defaults: Defaults { rigid: true, ..defaults },
-            is_lathe: machine == Machine::Lathe,
+            machine,
             at: Axes::default(),
             feed: None,
             mode: FeedMode::PerMinute,
@@ -165,7 +165,7 @@ impl Motion {
 
     /// The machine axis that belongs to an axis of the job: in a job for a lathe, the first axis is Z and the second is the radius.
     fn machine_axis(&self, axis: usize) -> usize {
-        match (self.is_lathe, axis) {
+        match (self.machine == Machine::Lathe, axis) {
             (true, 0) => 2,
             (true, 1) => 0,
             (true, 2) => 1,
@@ -281,7 +281,7 @@ impl Motion {
         self.rapid(&hole.at, &mut Totals::default());
         sums.moves.moves_to(&self.at);
         // the axis along which the hole is drilled
-        let depth_axis = if self.is_lathe { 0 } else { 2 };
+        let Some(depth_axis) = JobAxes::of(self.machine).depth else { return };
         // a point without a height is at the height of the point before it
         let (Some(spec), Some(point)) = (&self.cycle, hole.at.get(depth_axis).or(self.point)) else { return };
         self.point = Some(point);

@@ -3,12 +3,12 @@
 use super::axes::Axes;
 use super::cycle::{CycleSpec, Hole};
 use super::event::{Call, Event};
+use super::job_axes::JobAxes;
 use super::operation::{First, ToolChange};
 use super::start::Given;
 use super::tool::Spindle;
 use super::{Flow, Place, Sink, Stop, flow};
 use crate::diag::{Code, Diag};
-use crate::lang::Machine;
 
 /// The largest number of items that may come before the first move of an operation.
 const MOST_HELD: usize = 4096;
@@ -281,11 +281,8 @@ impl Sink for Hold<'_> {
         }
         match &event {
             Event::Start(start) => {
-                (self.axes, self.depth) = match start.machine {
-                    Machine::Mill => (0b111, 0b100),
-                    Machine::Lathe => (0b011, 0b001),
-                    Machine::Edm => (0b011, 0), // no axis goes down
-                };
+                let axes = JobAxes::of(start.machine);
+                (self.axes, self.depth) = (axes.first, axes.depth_bit());
             }
             // the first move of this tool change is known already
             Event::ToolChange(change) => self.tool = change.tool.as_ref().map(|tool| tool.number).or(self.tool),

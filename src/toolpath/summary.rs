@@ -5,10 +5,12 @@ use std::collections::HashSet;
 use super::CycleKind;
 use super::axes::{Axes, Units};
 use super::event::Event;
+use super::job_axes::JobAxes;
 use super::order::{Order, impossible};
 use super::start::Start;
 use super::{Flow, Place, Sink, flow, key};
 use crate::diag::{Code, Diag};
+use crate::lang::Machine;
 
 /// Counts the events of a job. `postform check` prints the result.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +48,7 @@ pub struct Summary {
     /// Numbers of the tools in `tools`.
     seen: HashSet<u64>,
     last: [f64; 3],
+    machine: Machine,
 }
 
 impl Summary {
@@ -85,6 +88,7 @@ impl Summary {
         self.units = Some(start.units);
         self.name.clone_from(&start.name);
         self.program = start.program;
+        self.machine = start.machine;
     }
 }
 
@@ -143,9 +147,10 @@ impl Summary {
                     row.1 += 1;
                 }
                 self.reach(&hole.at);
-                let bottom = self.last[2] - hole.depth.unwrap_or(depth);
-                if self.extents[2].is_some() {
-                    self.extend(2, bottom);
+                if let Some(axis) = JobAxes::of(self.machine).depth
+                    && self.extents[axis].is_some()
+                {
+                    self.extend(axis, self.last[axis] - hole.depth.unwrap_or(depth));
                 }
             }
             _ => {}

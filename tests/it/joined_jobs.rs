@@ -81,6 +81,25 @@ fn a_job_that_would_change_its_meaning_is_refused() {
     }
 }
 
+/// Each machine names its own axes: a wire has U and V.
+#[test]
+fn a_joined_wire_job_gives_its_guides() {
+    let folder = Folder::new("joined-wire");
+    folder.write("job.json", r#"{"postform":1,"program":1,"units":"mm","machine":"edm","tools":[{"number":1}],"operations":[{"tool":1,"work":54,"feed":3,"path":[{"rapid":[0,0]},{"line":[5,10,4.5,10]}]}]}"#);
+    let form = root().join("postforms/wire-edm.pf").display().to_string();
+    let refused = err(&folder.run(&["render", "job.json", "job.json", "--join", "--form", &form]));
+    assert!(refused.contains("PJ014") && refused.contains("that gives U"), "{refused}");
+}
+
+/// The extents of a job contain the bottoms of its holes, which lie along Z on a lathe.
+#[test]
+fn the_extents_of_a_lathe_job_contain_its_holes() {
+    let folder = Folder::new("lathe-hole");
+    folder.write("job.json", r#"{"postform":1,"units":"mm","machine":"lathe","tools":[{"number":1}],"operations":[{"tool":1,"spindle":{"speed":500,"direction":"cw"},"feed":0.2,"path":[{"rapid":[5,0]},{"cycle":{"kind":"drill","depth":20,"clear":2,"feed":50,"points":[[0,0]]}}]}]}"#);
+    let checked = out(&folder.run(&["check", "job.json"]));
+    assert!(checked.contains("h           -20 to 5 mm") && checked.contains("v           0 to 0 mm"), "{checked}");
+}
+
 /// A subprogram belongs to its own job.
 #[test]
 fn subprograms_are_not_shared() {

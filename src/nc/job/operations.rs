@@ -21,7 +21,6 @@ impl Reader<'_> {
         self.place.operation += 1;
         self.place.item = 0;
         let change = ToolChange {
-            name: None,
             tool: Some(Tool {
                 number,
                 length_offset: registers.length,
@@ -29,16 +28,12 @@ impl Reader<'_> {
                 name: self.tool_name.clone(),
                 ..Tool::default()
             }),
-            reloads: false,
             spindle: Some(wanted.spindle()),
             coolant: Some(wanted.coolant.unwrap_or(Coolant::OFF)),
             work: wanted.work,
-            feed: None,
-            plunge: None,
             feed_mode: Some(self.mode),
-            comment: None,
-            set: Vec::new(),
             first,
+            ..ToolChange::default()
         };
         self.said = wanted;
         self.push(Event::ToolChange(&change))?;

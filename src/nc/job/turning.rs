@@ -247,18 +247,13 @@ impl<'a> Turner<'a> {
         // if the same tool continues with another feed mode, the move home is a separate event
         let goes_home = std::mem::take(&mut self.home);
         let change = ToolChange {
-            name: None,
             tool: Some(Tool { number, ..Tool::default() }),
-            reloads: false,
             spindle: Some(self.wanted.spindle()),
             coolant: Some(self.wanted.coolant.unwrap_or(Coolant::OFF)),
             work: self.wanted.work,
-            feed: None,
-            plunge: None,
             feed_mode: Some(self.mode),
-            comment: None,
-            set: Vec::new(),
             first: if goes_home { First::Nothing } else { first },
+            ..ToolChange::default()
         };
         self.said = self.wanted;
         self.push(Event::ToolChange(&change))?;

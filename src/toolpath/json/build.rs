@@ -7,7 +7,7 @@ use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, Operatio
 use super::values::{Number, Position};
 use crate::diag::Code;
 use crate::toolpath::{
-    About, Axes, Event, First, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, key,
+    About, Axes, Event, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, key,
 };
 
 type Done = Result<(), Stop>;
@@ -145,7 +145,6 @@ impl<'s> Builder<'s> {
         let change = ToolChange {
             name: head.name,
             tool,
-            reloads: false,
             spindle: head.spindle.map(|s| spindle_of(&s)).transpose()?,
             coolant: head.coolant.map(|c| c.0),
             work: head.work.map(|w| not_negative("work", w)).transpose()?,
@@ -154,7 +153,7 @@ impl<'s> Builder<'s> {
             feed_mode: head.feed_mode.map(|m| m.0),
             comment: head.comment,
             set: head.set.map_or_else(Vec::new, |set| set.0),
-            first: First::Nothing,
+            ..ToolChange::default()
         };
         self.hold.tool_change(change, self.place)
     }

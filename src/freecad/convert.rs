@@ -7,7 +7,7 @@ use super::wrong;
 use crate::control;
 use crate::diag::{Code, Location};
 use crate::toolpath::{
-    Arc, Axes, Coolant, CycleKind, Direction, Event, FeedMode, First, Hold, Infeed, Place, Plane, Side, Sink, Spindle,
+    Arc, Axes, Coolant, CycleKind, Direction, Event, FeedMode, Hold, Infeed, Place, Plane, Side, Sink, Spindle,
     SpindleTurn, Stop, StopKind, ToolChange,
 };
 

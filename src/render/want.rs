@@ -1,5 +1,5 @@
-//! The values that the job currently requests: variables, feed, conditions, tool. Only events of the job change these
-//! values.
+//! The values that the job currently requests: variables, feed, conditions, tool. Events of the job change these values.
+//! Printing sets only the values of the printed block and of the form, such as `[movelength]` and `[coolantoff]`.
 
 use std::sync::Arc;
 

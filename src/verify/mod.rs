@@ -19,6 +19,7 @@ mod folded;
 mod form_values;
 mod holes;
 mod idle;
+mod in_order;
 mod intended;
 mod intent;
 mod lines;

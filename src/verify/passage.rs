@@ -4,7 +4,7 @@
 use std::ops::{Deref, DerefMut};
 
 use super::beside::{AtMachine, Beside, Compensated, Mark};
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, place, same};
 use crate::toolpath::{self, StopKind};
 
 /// The coordinate frame in which positions are given; the tool and the work offset define it.
@@ -295,6 +295,16 @@ impl Passage {
     pub fn legs(&self) -> impl DoubleEndedIterator<Item = (&Leg, &[Rapid])> {
         let end = |next: usize| self.legs.get(next).map_or(self.rapids.len(), |leg| leg.from);
         self.legs.iter().enumerate().map(move |(i, leg)| (leg, &self.rapids[leg.from..end(i + 1)]))
+    }
+
+    /// The start and the ends of all rapids. Where the job sends the tool home or changes the tool, all axes are unknown.
+    pub fn path(&self, start: Option<Rapid>) -> Vec<Rapid> {
+        let lost = Rapid { to: place(&[0.0; 6]), unknown: ALL, kept: ALL, spin: None };
+        let own = |(leg, rapids): (&Leg, &[Rapid])| {
+            let before = (leg.home || leg.loads).then_some(lost);
+            before.into_iter().chain(rapids.iter().copied()).collect::<Vec<_>>()
+        };
+        start.into_iter().chain(self.legs().flat_map(own)).collect()
     }
 
     /// The rapids before the first change of the frame.

@@ -4,9 +4,10 @@
 use std::io::{Read, Seek};
 use std::rc::Rc;
 
-use super::cut::{ACROSS, Cut, DEPTH, Place, State, number, over, same, shown};
+use super::cut::{ACROSS, Cut, DEPTH, Place, Rapid, State, number, over, same, shown};
 use super::expectation::Expectation;
 use super::folded::{begin_alike, hole, is_stroke, rounded_alike};
+use super::in_order::InOrder;
 use super::measured::Frames;
 use super::passage::TOO_LONG;
 use super::program::{Doubt, Program};
@@ -76,9 +77,10 @@ pub fn compare_motions(
     });
     b.share_tool_names(&a);
     let names = Names::of(a.control(), b.control());
+    let in_order = InOrder::of_control(a.control());
     let ways = [RapidPath::default(), RapidPath::default()];
     let mut pair =
-        Pair { a, b, names, tolerance, ways, before: [None, None], begun: None, motions: Motions::default() };
+        Pair { a, b, names, tolerance, in_order, ways, before: [None, None], begun: None, motions: Motions::default() };
     pair.compare()?;
     Ok(Motions { has_slash: pair.a.has_slash() || pair.b.has_slash(), ..pair.motions })
 }
@@ -91,6 +93,8 @@ struct Pair<'a> {
     b: Program<'a>,
     names: Names,
     tolerance: f64,
+    /// The rule for rapids if the machine is not a mill.
+    in_order: Option<InOrder>,
     /// The rapids of both programs since the last cut.
     ways: [RapidPath; 2],
     /// The frames of both programs at the last cut.
@@ -198,13 +202,25 @@ impl Pair<'_> {
         None
     }
 
+    /// The first corner of the new path that is not on the old path, on a lathe or a wire EDM machine.
+    fn astray(&self, rule: InOrder) -> Option<Rapid> {
+        let known = self.ways.iter().all(|way| way.corners.first().is_none_or(|start| rule.is_known(start)));
+        let [old, new] = self.ways.each_ref().map(|way| &way.corners[usize::from(!known)..]);
+        let [wanted, is] = *rule.follows(old, new, self.tolerance).err()?;
+        is.or(wanted)
+    }
+
     /// Compares the rapids since the last cut. If the old path is lower, the paths are different.
     fn way(&mut self) -> Compared {
         let known = [&self.a, &self.b].iter().all(|program| program.start().unknown == 0);
-        let [left, right] = &mut self.ways;
+        let [left, right] = &self.ways;
         if left.is(right, self.tolerance) && turn_alike(&left.corners, &right.corners) {
             return Compared::Same;
         }
+        if let Some(rule) = self.in_order {
+            return self.astray(rule).map_or(Compared::AsGood { step_by_step: true }, Compared::Elsewhere);
+        }
+        let [left, right] = &mut self.ways;
         match compare(left, right, known, self.tolerance) {
             Compared::Same if known => turned_low(&right.corners, &left.corners, self.tolerance)
                 .map_or(Compared::Same, |(to, axes)| Compared::Turned(to, axes)),
@@ -235,7 +251,8 @@ impl Pair<'_> {
         let same_way = self.ways[0].is(&self.ways[1], self.tolerance);
         let alike = same_way && turn_alike(&self.ways[0].corners, &self.ways[1].corners);
         self.motions.ways += u64::from(!same_way);
-        let elsewhere = || !alike && (low(0, 1) || low(1, 0));
+        let elsewhere =
+            || !alike && self.in_order.map_or_else(|| low(0, 1) || low(1, 0), |rule| self.astray(rule).is_some());
         between(&self.a, &self.b, self.names, self.tolerance)
             .or_else(|| leaving(&self.a, &self.b, self.names))
             .or_else(|| self.frames(false))

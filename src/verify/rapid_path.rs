@@ -1,6 +1,6 @@
 //! Paths of rapids between two cuts.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, distance, lies_between, same, turned_otherwise};
+use super::cut::{ACROSS, ALL, Place, Rapid, distance, lies_between, same, turned_otherwise};
 use super::tables::ANGLE;
 
 /// Minimum length of a rapid, as a multiple of the tolerance. The direction of a shorter rapid can't be determined from
@@ -60,52 +60,6 @@ impl RapidPath {
                 .iter()
                 .zip(&other.corners)
                 .all(|(a, b)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance))
-    }
-
-    /// Sets the path to all these rapids from a start, including rapids without a move.
-    pub fn set_all(&mut self, start: Option<Rapid>, rapids: &[Rapid]) {
-        self.corners.clear();
-        self.corners.extend(start.iter().chain(rapids));
-        self.begun = start.is_some();
-    }
-
-    /// Checks that the path `other` follows this path. `other` may stop on this path and may go straight on over its
-    /// corners. If `may_round`, `other` may replace a slanted rapid by two rapids, with the corner at the greater of
-    /// the two heights. Returns the number of replaced rapids. The error contains the first different corner of this
-    /// path and of `other`. A NaN radius is unknown.
-    pub fn is_followed(
-        &self,
-        other: &RapidPath,
-        may_round: bool,
-        tolerance: f64,
-    ) -> Result<u64, Box<[Option<Rapid>; 2]>> {
-        let near = |a: f64, b: f64| (a - b).abs() <= tolerance;
-        let is = |a: &Rapid, b: &Rapid| same(&a.to, &b.to, ALL, tolerance);
-        let between = |a: &Rapid, b: &Rapid, c: &Rapid| lies_between(&a.to, &b.to, &c.to, tolerance);
-        let round = |from: &Rapid, at: &Rapid, to: &Rapid| {
-            near(at.to[DEPTH], from.to[DEPTH].max(to.to[DEPTH]))
-                && [from, to].iter().any(|end| near(at.to[0], end.to[0]))
-        };
-        let (mut own, mut made, mut rounds) = (0, 0, 0);
-        let mut here: Option<&Rapid> = None;
-        loop {
-            match (self.corners.get(own), other.corners.get(made), here) {
-                (None, None, _) => return Ok(rounds),
-                (Some(a), _, _) if a.to[0].is_nan() => (own, here) = (own + 1, Some(a)),
-                (_, Some(b), _) if b.to[0].is_nan() => made += 1,
-                (Some(a), Some(b), _) if is(a, b) => (own, made, here) = (own + 1, made + 1, Some(a)),
-                // a move of no length
-                (_, Some(b), Some(at)) if is(at, b) => made += 1,
-                (Some(a), _, Some(at)) if is(at, a) => own += 1,
-                // the other path goes straight on beyond this corner, or stops before it
-                (Some(a), Some(b), Some(at)) if between(at, a, b) => (own, here) = (own + 1, Some(a)),
-                (Some(a), Some(b), Some(at)) if between(at, b, a) => (made, here) = (made + 1, Some(b)),
-                (Some(a), Some(b), Some(at)) if may_round && round(at, b, a) => {
-                    (rounds, made, here) = (rounds + 1, made + 1, Some(b));
-                }
-                (a, b, _) => return Err(Box::new([a.copied(), b.copied()])),
-            }
-        }
     }
 
     /// Whether all rapids across are above this height.
@@ -177,31 +131,4 @@ pub(super) fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = 
     // a move to or from a machine position
     let home = |a: &Rapid, b: &Rapid| (a.unknown ^ b.unknown) & ACROSS != 0;
     pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b) || home(a, b))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::cut::place;
-    use super::*;
-
-    fn way(points: &[[f64; 3]]) -> RapidPath {
-        let rapids: Vec<Rapid> = points
-            .iter()
-            .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, kept: 0, spin: None })
-            .collect();
-        let mut way = RapidPath::default();
-        way.set(None, &rapids, 1e-4);
-        way
-    }
-
-    #[test]
-    fn a_slanted_rapid_may_go_round_its_corner_farther_out() {
-        let job = way(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.2], [0.0, 0.0, 0.1]]);
-        let followed = |points: &[[f64; 3]]| job.is_followed(&way(points), true, 1e-4).ok();
-        assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.2], [0.0, 0.0, 0.1]]), Some(0));
-        assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.4], [0.0, 0.0, 0.1]]), Some(1));
-        assert_eq!(followed(&[[1.5, 0.0, 0.4], [1.5, 0.0, 0.2], [0.0, 0.0, 0.1]]), None);
-        assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.4], [0.0, 0.0, 0.15]]), None);
-        assert_eq!(followed(&[[1.5, 0.0, 0.4]]), None);
-    }
 }

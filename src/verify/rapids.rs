@@ -4,6 +4,7 @@
 use super::beside::{Compensated, Mark};
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, is_length, number, same, shown};
 use super::idle;
+use super::in_order::InOrder;
 use super::modal::{TOOL_LENGTH, WITHOUT};
 use super::passage::{Entry, Frame, Leg, Passage};
 use super::rapid_path::{turn_alike, turned_low};
@@ -56,8 +57,8 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     moved_with(s, line);
     goes_home(s, line);
     loads_again(s);
-    if s.machine != Machine::Mill {
-        return beside_the_part(s, line);
+    if let Some(rule) = InOrder::of(s.machine) {
+        return beside_the_part(s, rule, line);
     }
     let (lost, changed) = (s.job.changed(), s.program.passage.changed());
     // fast path: most paths are equal, so their corners need no comparison
@@ -409,8 +410,8 @@ pub(super) fn end(s: &mut Sides<'_>) {
     moved_with(s, 0);
     goes_home(s, 0);
     loads_again(s);
-    if s.machine != Machine::Mill {
-        return beside_the_part(s, 0);
+    if let Some(rule) = InOrder::of(s.machine) {
+        return beside_the_part(s, rule, 0);
     }
     let passage = &s.program.passage;
     let changed = passage.changed();
@@ -425,32 +426,21 @@ pub(super) fn end(s: &mut Sides<'_>) {
 
 /// Compares paths on lathes and wire EDM machines, where the part or the wire may be on any side. The tool must go to
 /// the job's positions in their order, and may go to machine positions. On a lathe, a slanted rapid may be replaced by
-/// two rapids on the side away from the chuck.
-fn beside_the_part(s: &mut Sides<'_>, line: u64) {
+/// two rapids on the side away from the chuck. If the job gives only one axis first after the tool was home, the program
+/// must move this axis first.
+fn beside_the_part(s: &mut Sides<'_>, rule: InOrder, line: u64) {
     let tolerance = s.limits.tolerance;
-    let is_lathe = s.machine == Machine::Lathe;
-    let known = |rapids: &[Rapid]| -> Vec<Rapid> {
-        let mut rapids: Vec<Rapid> = rapids.iter().map(|rapid| Rapid { spin: None, ..*rapid }).collect();
-        rapids.retain(|rapid| rapid.unknown == 0 || is_lathe && rapid.unknown == 1 << RADIUS);
-        rapids.iter_mut().filter(|rapid| rapid.unknown != 0).for_each(|rapid| rapid.to[RADIUS] = f64::NAN);
-        rapids
-    };
-    let [own, made] = [known(&s.job.rapids), known(&s.program.passage.rapids)];
-    let [job, program] = &mut s.ways;
     let starts = [s.job.start, s.program.passage.start];
     let both_known = starts.iter().all(|start| start.is_some_and(|start| start.unknown == 0));
     let [from, begun] = starts.map(|start| start.filter(|_| both_known));
-    job.set_all(from, &own);
-    program.set_all(begun, &made);
-    let [wanted, is] = match job.is_followed(program, is_lathe, tolerance) {
+    let [wanted, is] = match rule.follows(&s.job.path(from), &s.program.passage.path(begun), tolerance) {
         Ok(rounds) => {
             s.report.allowed.ways += rounds;
             return;
         }
         Err(corners) => *corners,
     };
-    let axes = if is_lathe { 0b101 } else { 0b11 };
-    let shown = |corner: Option<Rapid>| corner.map_or("nowhere".to_owned(), |corner| shown(&corner.to, axes));
+    let shown = |corner: Option<Rapid>| corner.map_or("nowhere".to_owned(), |corner| rule.shown(&corner));
     s.found(Code::PV001, line, "check the words that the form prints for the rapids here", || {
         format!("a rapid goes to {}, but the job's rapid goes to {}", shown(is), shown(wanted))
     });

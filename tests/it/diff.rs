@@ -492,6 +492,57 @@ fn motions_differ_after_the_last_cut() {
     assert_eq!(found, "the spindle leaves the last cut with stop, but with cw in the old program");
 }
 
+/// On a lathe, no side of the part is always clear of the part. The tool must go to the same positions in the same order,
+/// also next to the home position. Two rapids may replace a slanted rapid, with the corner at the greater Z.
+#[test]
+fn motions_of_lathes_follow_the_same_path() {
+    let part = |[enter, leave, end]: [&str; 3]| {
+        format!(
+            "G21 G18 G40 G80 G99\nG0 G53 X0\nG53 Z0\nT0101\nG97 S500 M3\nG0 {enter}\nX82.\nG1 X60. F.1\nG0 {leave}\nG1 X82. \
+             F.1\nG0 {end}\nM30\n"
+        )
+    };
+    const OLD: [&str; 3] = ["Z-40. X220.", "X220.\nZ5.\nX100.", "X220.\nG53 X0\nG53 Z0"];
+    let at = |index: usize, old: &str, new: &str| {
+        let with = |text| {
+            let mut parts = OLD;
+            parts[index] = text;
+            part(parts)
+        };
+        difference("haas-lathe", [old, new].map(with)).unwrap_or("none".to_owned())
+    };
+    let [enter, leave, end] = OLD;
+    for (index, old, new, found) in [
+        // from home to the first cut
+        (0, enter, "Z-40. X220.", "none"),
+        (0, enter, "Z-40.\nX220.", "none"),
+        (0, enter, "Z-40. X220.\nX150.", "none"),
+        (0, enter, "X20.\nZ-40.", "the rapids near X10 Z-40 follow another path than in the old program"),
+        (0, enter, "Z-45. X220.\nZ-40.", "the rapids near X110 Z-45 follow another path than in the old program"),
+        (0, "Z-40.\nX220.", "X220.\nZ-40.", "the rapids near X110 follow another path than in the old program"),
+        (0, "X220.\nZ-40.", "Z-40.\nX220.", "the rapids near Z-40 follow another path than in the old program"),
+        (0, "X220.\nZ-40.", "X220. Z-40.", "the rapids near X110 Z-40 follow another path than in the old program"),
+        // between two cuts
+        (1, leave, "X220.\nZ5.\nX150.\nX100.", "none"),
+        (1, leave, "Z5.\nX100.", "the rapids near X30 Z5 follow another path than in the old program"),
+        (1, "X220.\nZ-30. X250.", "X220.\nZ-30.\nX250.", "none"),
+        (
+            1,
+            "X220.\nZ-30. X250.",
+            "X220.\nX250.\nZ-30.",
+            "the rapids near X125 Z-40 follow another path than in the old program",
+        ),
+        // home after the last cut
+        (2, end, "X220.\nG53 X0\nG53 Z0", "none"),
+        (2, end, "X150.\nX220.\nG53 X0\nG53 Z0", "none"),
+        (2, end, "X-20.\nX220.\nG53 X0\nG53 Z0", "the path after the last cut is different"),
+        (2, end, "X-20.\nG53 Z0\nG53 X0", "the path after the last cut is different"),
+        (2, end, "X220.\nG53 Z0\nG53 X0", "the path after the last cut is different"),
+    ] {
+        assert_eq!(at(index, old, new), found, "{old:?} -> {new:?}");
+    }
+}
+
 /// Spindle and turret of a lathe are compared.
 #[test]
 fn motions_of_lathes_differ_in_spindle_and_turret() {

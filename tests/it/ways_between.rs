@@ -176,3 +176,46 @@ fn the_tool_stays_where_it_is_when_the_work_offset_changes() {
     let is: Vec<_> = wrong.iter().map(|(job, between, wanted)| (between, wanted, codes(job, between))).collect();
     assert!(is.is_empty(), "{is:#?}");
 }
+
+/// A groove of a lathe: the first rapids after the tool change go along one axis each.
+const GROOVE: &str = r#"{"postform":1,"program":1,"units":"mm","machine":"lathe","tools":[{"number":1}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":0.1,"path":[
+ENTER,{"line":[-40,30]},{"rapid":[-40,50]},{"rapid":[50,50]}LEAVE]}]}"#;
+
+/// On a lathe, the axis that the job moves first after the tool change or after a move home must move first.
+#[test]
+fn the_axes_of_a_lathe_move_from_home_in_the_order_of_the_job() {
+    let post = Post::compile(
+        Source::from_text("haas-lathe.pf", fs::read_to_string(root().join("postforms/haas-lathe.pf")).unwrap()),
+        &NoFiles,
+    )
+    .unwrap();
+    let verdict = |enter: &str, leave: &str, from: &str, to: &str| {
+        let job = GROOVE.replace("ENTER", enter).replace("LEAVE", leave);
+        let right = printed(&post, &job);
+        assert_eq!(right.matches(from).count(), 1, "{from}\n{right}");
+        post.verify(Job::json(&job), &right.replacen(from, to, 1)).unwrap()
+    };
+    let (z_first, x_first) = ("Z-40.\nX82.\n", "X82.\nZ-40.\n");
+    let (job_z, job_x) = (r#"{"rapid":[-40]},{"rapid":[null,41]}"#, r#"{"rapid":[null,41]},{"rapid":[-40]}"#);
+    let again = |way: &str| format!(r#",{{"home":true}},{way},{{"line":[-40,31]}},{{"rapid":[-40,50]}}"#);
+    let [again_z, again_x] = [job_z, job_x].map(again);
+    let both = r#"{"rapid":[-40,41]}"#;
+    for (enter, leave, from, to, message) in [
+        (job_z, "", z_first, z_first, None),
+        (job_z, "", z_first, "Z-40. X82.\n", Some("a rapid goes to X41 Z-40, but the job's rapid goes to Z-40")),
+        (job_z, "", z_first, x_first, Some("a rapid goes to X41, but the job's rapid goes to Z-40")),
+        (job_x, "", x_first, x_first, None),
+        (job_x, "", x_first, z_first, Some("a rapid goes to Z-40, but the job's rapid goes to X41")),
+        (both, "", "Z-40. X82.\n", z_first, None),
+        (both, "", "Z-40. X82.\n", x_first, None),
+        (both, &again_z, z_first, x_first, Some("a rapid goes to X41, but the job's rapid goes to Z-40")),
+        (both, &again_x, x_first, z_first, Some("a rapid goes to Z-40, but the job's rapid goes to X41")),
+    ] {
+        let found = match verdict(enter, leave, from, to) {
+            Verdict::Different(findings) => Some(format!("{} {}", findings[0].code.name(), findings[0].message)),
+            _ => None,
+        };
+        assert_eq!(found, message.map(|message| format!("PV001 {message}")), "{enter} {leave}: {to}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::cut::{ACROSS, ALL, Place, Rapid, same};
 use super::rapid_path::{RapidPath, across, crossing, highest, home_crossing, known_heights};
-use super::ways::{ROUNDED_ACROSS, goes_upright_elsewhere, is_over};
+use super::ways::{ROUNDED_ACROSS, goes_upright_elsewhere, is_over, low_at_machine};
 
 /// Checks the program's path after the last cut. No move across may be lower than the job's moves across. Below the
 /// job's greatest height, a move across must be above one of the job's rapids. The tool may go down only where the job
@@ -20,6 +20,9 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     });
     if let Some((_, b)) = low {
         return Some((b.to, crossing));
+    }
+    if let Some((to, height)) = low_at_machine(&job.corners, &program.corners, tolerance) {
+        return Some((to.to, height));
     }
     if let Some(to) = goes_upright_elsewhere(&job.corners, &program.corners, highest, tolerance) {
         return Some((to.to, highest));

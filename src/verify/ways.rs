@@ -40,6 +40,11 @@ impl Low {
         let Rapid { to, unknown, .. } = self.to;
         let (begin, limit) = (number(self.height), number(self.limit));
         let end = self.to.text();
+        if begin >= limit && self.to.is_at_machine(0b11) {
+            return format!(
+                "a rapid goes to a machine position in X or Y at Z{begin}, but the job stays over the part here"
+            );
+        }
         if begin >= limit {
             return format!("a rapid goes down to {end}, but the job goes down at another X or Y here");
         }
@@ -82,6 +87,9 @@ pub(super) fn compare(job: &mut RapidPath, program: &mut RapidPath, known_start:
 fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, tolerance: f64) -> Compared {
     if known_start && let Some((to, axes)) = turned_low(&job.corners, &program.corners, tolerance) {
         return Compared::Turned(to, axes);
+    }
+    if known_start && let Some((to, height)) = low_at_machine(&job.corners, &program.corners, tolerance) {
+        return Compared::Lower(Low { to: *to, height, limit: highest(&job.corners) });
     }
     let Some(first) = job.corners.first().filter(|_| !known_start) else {
         return compare_corners(
@@ -191,6 +199,20 @@ pub(super) fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bo
     };
     let places: Vec<Place> = [from].into_iter().chain(stops.iter().map(|stop| stop.1)).chain([to]).collect();
     places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
+}
+
+/// The first rapid of the program from or to a machine position in X or Y that is not above the start of the job's path,
+/// the end of the last cut: the end of the rapid, and its height. The part may be anywhere on the way to this position, so
+/// only the job's own rapids may be that low.
+pub(super) fn low_at_machine<'a>(job: &[Rapid], program: &'a [Rapid], tolerance: f64) -> Option<(&'a Rapid, f64)> {
+    let start = job.first().map(Rapid::height).filter(|height| height.is_finite())?;
+    let height = |a: &Rapid, b: &Rapid| a.height().min(b.height());
+    let is_low = |(a, b): &(&Rapid, &Rapid)| {
+        (a.is_at_machine(0b11) || b.is_at_machine(0b11))
+            && height(a, b) <= start + tolerance
+            && !is_over(a, b, job, tolerance)
+    };
+    across(program, tolerance).find(is_low).map(|(a, b)| (b, height(a, b)))
 }
 
 /// Compares two lists of corners. `start`: the number of corners at the start of the program's path that are the end of

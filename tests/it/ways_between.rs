@@ -219,3 +219,51 @@ fn the_axes_of_a_lathe_move_from_home_in_the_order_of_the_job() {
         assert_eq!(found, message.map(|message| format!("PV001 {message}")), "{enter} {leave}: {to}");
     }
 }
+
+/// A tool in a slot at Z-2: a rapid in the slot before the stop, and the rapid AFTER after it.
+const SLOT: &str = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1},{"number":2}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":2000,"direction":"cw"},"feed":100,"path":[
+{"rapid":[10,0,20]},{"line":[10,0,-2]},{"line":[50,0,-2]}BEFORE,{"rapid":[10,0]},{"stop":"program"},{"rapid":[10,20]}AFTER]}"#;
+
+/// A form that goes to a machine position in X and Y at a stop. From and to this position, no rapid may be at the depth of
+/// the last cut, except a rapid of the job.
+#[test]
+fn a_machine_position_is_left_and_reached_above_the_last_cut() {
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    let cut = r#",{"line":[10,30]}]}"#;
+    let tool = r#"]},{"tool":2,"work":54,"spindle":{"speed":2000,"direction":"cw"},"feed":100,"path":[{"rapid":[0,0,20]},{"line":[0,0,-1]},{"rapid":[0,0,20]}]}"#;
+    let up = r#",{"rapid":[null,null,5]}"#;
+    for (stop, before, found) in [
+        ("M0", "", None),
+        (
+            "G0 G53 Z0\nG53 X0 Y0\nM0",
+            "",
+            Some([
+                "PV009: a rapid goes down to X10 Y20 Z-2, but the job goes down at another X or Y here",
+                "PV009: after the last cut a rapid goes to X10 Y20 Z-2, not above Z-2",
+            ]),
+        ),
+        ("G0 G53 Z0\nG53 X0 Y0\nM0", up, None),
+        (
+            "G0 G53 X0 Y0\nM0",
+            "",
+            Some([
+                "PV009: a rapid goes to a machine position in X or Y at Z-2, but the job stays over the part here",
+                "PV009: after the last cut a rapid goes to X0 Y0 Z-2, not above Z-2",
+            ]),
+        ),
+        ("G0 G53 X0 Y0\nM0", up, None),
+    ] {
+        let form = format!("{form}\nStop\n{stop}\nEnd\n");
+        let post = Post::compile(Source::from_text("haas.pf", form), &NoFiles).unwrap();
+        for (index, after) in [cut, tool].into_iter().enumerate() {
+            let job = SLOT.replace("BEFORE", before).replace("AFTER", after);
+            // a program that differs from its job is not printed
+            let refused = post.render(Job::json(&job), &Options::default()).err().map(|error| error.to_string());
+            match found.map(|found| found[index]) {
+                None => assert_eq!(refused, None, "{stop} {before} {after}"),
+                Some(found) => assert!(refused.as_ref().is_some_and(|text| text.contains(found)), "{refused:?} {stop}"),
+            }
+        }
+    }
+}

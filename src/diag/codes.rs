@@ -179,6 +179,7 @@ codes! {
     PF716 Warning "a variable in backquotes"
     PF717 Warning "a number beside a length, in a form for both units"
     PF718 Note "a list that leaves out items without a text"
+    PF719 Warning "a kind of coolant that no sequence turns off"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"

@@ -14,6 +14,7 @@ mod comment_line_without_text;
 mod compensation_words;
 mod condition_as_text;
 mod control_without_code;
+mod coolant_left_on;
 mod coolant_order;
 mod coolant_unprinted;
 mod count_swallows_position;
@@ -252,4 +253,5 @@ rules! {
     PF716 variable_in_quotes
     PF717 length_in_one_unit
     PF718 item_without_text
+    PF719 coolant_left_on
 }

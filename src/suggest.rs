@@ -31,6 +31,20 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
+/// Whether `short` is `long` with letters left out, such as `OptStop` for `OptionalStop`. The first letters are equal, and
+/// at least half of the letters are kept. Upper and lower case are equal.
+pub fn abbreviates(short: &str, long: &str) -> bool {
+    let mut rest = long.chars();
+    let follows = |c: char| rest.any(|other| other.eq_ignore_ascii_case(&c));
+    let begins =
+        short.get(..1).is_some_and(|first| long.get(..1).is_some_and(|other| other.eq_ignore_ascii_case(first)));
+    long.len() < LONGEST_NAME
+        && short.len() > 2
+        && 2 * short.len() >= long.len()
+        && begins
+        && short.chars().all(follows)
+}
+
 /// The number of letters in a name, and the set of its letters as bits. Several letters may have the same bit. Upper
 /// and lower case are equal.
 fn shape(name: &str) -> (usize, u64) {
@@ -61,6 +75,16 @@ mod tests {
         assert_eq!(nearest("feedrate", names), None);
         assert_eq!(nearest("z", names), None);
         assert_eq!([nearest("vv", names), nearest("zv", names)], [Some("v"), None]);
+    }
+
+    #[test]
+    fn a_short_name_abbreviates_a_long_name() {
+        for (short, long) in [("OptStop", "OptionalStop"), ("optstop", "OptionStop"), ("InchMm", "InchesMm")] {
+            assert!(abbreviates(short, long), "{short} {long}");
+        }
+        for (short, long) in [("Tap", "ToolAppend"), ("Stop", "OptionalStop"), ("Tap", "Type"), ("é", "éé")] {
+            assert!(!abbreviates(short, long), "{short} {long}");
+        }
     }
 
     #[test]

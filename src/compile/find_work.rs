@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::program::{Op, Program};
-use super::work::{WorkWord, WorkWords};
+use super::work::{MoreWords, WorkWord, WorkWords};
 use crate::control::{Code, Group, Meaning};
 use crate::lang::{SequenceId, VarId, VarSet};
 use crate::nc::{Kind, tokens};
@@ -60,12 +60,12 @@ pub(super) fn find_work(program: &Program) -> WorkWords {
 }
 
 /// The work offsets that `MoreWork` defines.
-fn more_words(program: &Program) -> Vec<(f64, WorkWord, f64)> {
+fn more_words(program: &Program) -> Vec<MoreWords> {
     let first = program.settings.work;
     let more = program.settings.more_work.iter().map(|more| {
         let is_code = more.code.is_none() && program.letters[0][more.letter].printed == b'G';
         let word = WorkWord { code: more.code, letter: Some(more.letter), is_code, calculated: None };
-        (first + f64::from(more.first) - 1.0, word, more.number)
+        MoreWords { from: first + f64::from(more.first) - 1.0, word, number: more.number, last: more.last }
     });
     more.collect()
 }

@@ -18,6 +18,19 @@ pub struct WorkWord {
     pub(super) calculated: Option<Formula>,
 }
 
+/// The words of one `MoreWork` command.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MoreWords {
+    /// The first value of `[work]` to which the command applies.
+    pub(super) from: f64,
+    /// The word that selects the offset.
+    pub(super) word: WorkWord,
+    /// The number in the word for the first offset.
+    pub(super) number: f64,
+    /// The greatest number in the word; `None`: no limit is known.
+    pub(super) last: Option<f64>,
+}
+
 /// All ways in which a form prints a work offset, and the operations that print it. Arguments of macros, subprograms and G10 are
 /// not included.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,9 +40,8 @@ pub struct WorkWords {
     pub ways: Vec<WorkWord>,
     /// The indices of the operations that print the work offset, in ascending order.
     pub(super) says: Vec<usize>,
-    /// The words from `MoreWork`. Each entry has the first value of `[work]` to which it applies, the word, and the
-    /// number in the word for this offset.
-    pub(super) more: Vec<(f64, WorkWord, f64)>,
+    /// The words from `MoreWork`.
+    pub(super) more: Vec<MoreWords>,
     /// Whether G54 to G59 also select offsets if the form has other words for offsets. False if one of these other
     /// words follows a code. For example, on an Okuma, offsets follow G15, and G56 is a code for tool lengths.
     pub shares_its_codes: bool,
@@ -62,8 +74,14 @@ impl WorkWords {
 
     /// The word from `MoreWork` for this value of `[work]`, and the number in the word.
     pub fn more(&self, work: f64) -> Option<(&WorkWord, f64)> {
-        let (first, word, number) = self.more.iter().rfind(|(first, ..)| *first <= work && work.fract() == 0.0)?;
-        Some((word, number + (work - first)))
+        let row = self.more.iter().rfind(|row| row.from <= work && work.fract() == 0.0)?;
+        Some((&row.word, row.number + (work - row.from)))
+    }
+
+    /// The last number of `MoreWork`, if the number of this value of `[work]` is greater.
+    pub fn beyond(&self, work: f64) -> Option<f64> {
+        let row = self.more.iter().rfind(|row| row.from <= work)?;
+        row.last.filter(|last| row.number + (work - row.from) > *last)
     }
 
     /// The identifier of the work offset that is printed: its code, its number, or the identifier of an additional offset.

@@ -12,6 +12,6 @@ mod thread;
 
 pub use check::check;
 pub use pecks::stepped_pecks;
-pub use plan::{Defaults, Plan, Step};
+pub use plan::{Defaults, Plan, Step, rounded};
 pub use steps::{Steps, plan};
 pub use thread::thread_passes;

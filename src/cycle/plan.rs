@@ -86,7 +86,9 @@ impl Plan {
         };
         if clear + depth < 0.0 {
             let message = format!(
-                "the bottom of the hole ({depth} below the point) is above the clearance plane ({clear} above the point)"
+                "the bottom of the hole ({} below the point) is above the clearance plane ({} above the point)",
+                rounded(depth),
+                rounded(clear)
             );
             let help = if depth < 0.0 {
                 "`depth` counts down from the point: write the number without the minus"
@@ -137,7 +139,7 @@ fn one_depth(spec: &CycleSpec, own_depth: Option<f64>, sink: Option<f64>) -> Res
 }
 
 /// A calculated length for a message, without the last digits, which are not exact.
-fn rounded(length: f64) -> f64 {
+pub fn rounded(length: f64) -> f64 {
     const PARTS: f64 = 1e6;
     (length * PARTS).round() / PARTS
 }

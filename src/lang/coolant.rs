@@ -23,6 +23,9 @@ impl Coolant {
     /// Coolant under high pressure.
     pub const HIGH: Coolant = Coolant::of(16);
 
+    /// The kinds that `CoolantKind` defines.
+    pub const FURTHER: [Coolant; 4] = [Coolant::THROUGH, Coolant::AIR, Coolant::MIST, Coolant::HIGH];
+
     /// All names of coolant in jobs and forms, with their kinds.
     pub const NAMES: [(&'static str, Coolant); 7] = [
         ("flood", Coolant::FLOOD),

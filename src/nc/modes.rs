@@ -188,9 +188,15 @@ impl State {
                 let most = f64::from(WorkOffset::MOST);
                 let said = block.get(letter).filter(|number| number.fract() == 0.0 && (1.0..=most).contains(number));
                 let Some(number) = said else {
-                    let letter = char::from(letter);
+                    let (name, letter) = (block.get(letter), char::from(letter));
                     let help = format!("write {letter}1 to {letter}{most} in this block");
-                    return refuse(Code::PN007, "an additional work offset without its number", help);
+                    let message = match name {
+                        None => "an additional work offset without its number".to_owned(),
+                        Some(other) => {
+                            format!("postform knows no work offset {letter}{other}, only {letter}1 to {letter}{most}")
+                        }
+                    };
+                    return refuse(Code::PN007, message, help);
                 };
                 additional(number)
             }

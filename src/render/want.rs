@@ -230,6 +230,12 @@ impl Want {
             return fault(Code::PR037, message, "give the number of the fixture, from 1, or a code from 54 to 59");
         };
         let words = &shape.program.work;
+        if let Some(last) = words.beyond(code) {
+            let message = format!("the work offset {work} is after the last one of `MoreWork`, with the number {last}");
+            let help = "give another fixture; if the control has more offsets, write the number of the last one into \
+                `MoreWork`";
+            return fault(Code::PR037, message, help);
+        }
         let of_work = OfWork { work: code, properties: &self.properties };
         let is_said = match words.ways.is_empty() {
             true => !is_no_work(code, shape),

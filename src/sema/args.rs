@@ -2,7 +2,7 @@
 
 use super::code::Code;
 use crate::control;
-use crate::lang::{Args, CommandId};
+use crate::lang::{Args, CommandId, Coolant};
 use crate::span::Span;
 use crate::syntax::Spanned;
 
@@ -12,6 +12,8 @@ pub struct BadArg {
     pub span: Option<Span>,
     /// The message, which is a whole sentence.
     pub message: String,
+    /// What to write instead. `None`: the meaning of the command is shown.
+    pub help: Option<String>,
 }
 
 /// Result of reading arguments.
@@ -19,7 +21,12 @@ pub type Read<T> = Result<T, BadArg>;
 
 /// Returns the error of an argument that can't be read.
 pub fn bad<T>(arg: Option<&Spanned>, message: impl Into<String>) -> Read<T> {
-    Err(BadArg { span: arg.map(|a| a.span), message: message.into() })
+    Err(BadArg { span: arg.map(|a| a.span), message: message.into(), help: None })
+}
+
+/// Returns the error of an argument that can't be read, with the correction.
+pub fn bad_with<T>(arg: Option<&Spanned>, message: impl Into<String>, help: impl Into<String>) -> Read<T> {
+    Err(BadArg { span: arg.map(|a| a.span), message: message.into(), help: Some(help.into()) })
 }
 
 /// The arguments of one command.
@@ -43,6 +50,10 @@ impl Arguments<'_> {
         let (takes, given) = (self.id.row().args, self.all.len());
         if given == 0 && !matches!(self.id, CommandId::Name | CommandId::Eob) {
             return bad(None, format!("{} needs {}", self.name(), wants(self.id)));
+        }
+        if let (CommandId::Coolant, Some(kind)) = (self.id, self.all.first().filter(|arg| is_further_kind(&arg.text))) {
+            let message = format!("`{}` is a further kind of coolant", kind.text);
+            return bad_with(Some(kind), message, format!("write `CoolantKind {}`", self.text()));
         }
         let Some((least, most)) = takes.count().filter(|&(least, most)| !(least..=most).contains(&given)) else {
             return Ok(());
@@ -194,6 +205,11 @@ fn wants(id: CommandId) -> String {
         Args::Choice(words) => format!("one of {}", words.join(", ")),
         Args::Words(_, _, what) => what.into(),
     }
+}
+
+/// Whether the text is a kind of coolant that `CoolantKind` defines.
+fn is_further_kind(text: &str) -> bool {
+    Coolant::parse(text).is_some_and(|kind| Coolant::FURTHER.contains(&kind))
 }
 
 /// Finds the word of a choice. Returns the word in the spelling of the command table.

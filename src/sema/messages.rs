@@ -3,7 +3,7 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{COMMANDS, SEQUENCES};
 use crate::span::Span;
-use crate::suggest::did_you_mean;
+use crate::suggest::{abbreviates, did_you_mean};
 
 pub(super) fn bad_format(span: Span, why: &str) -> Diag {
     Diag::new(Code::PF301, format!("the letter format {why}"))
@@ -44,9 +44,10 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     let own = || ["Upon", "End"].into_iter();
     let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name)).chain(own());
     let mut diag = Diag::new(Code::PF201, format!("`{}` is not a command or a sequence", name)).at(span, "unknown");
-    // the name may be an abbreviation: suggest the known name that begins with this text
+    // the name or the known name may be an abbreviation of the other
     let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));
-    let begins = || names().find(|n| name.len() > 2 && begins_with(n));
+    let begins =
+        || names().find(|n| name.len() > 2 && begins_with(n)).or_else(|| names().find(|n| abbreviates(n, name)));
     // names that are reserved for a later version
     if let Some(kept) = ["PlaneOn", "PlaneOff"].iter().find(|kept| kept.eq_ignore_ascii_case(name)) {
         return diag.help(format!("{kept} is reserved for tilted planes, which postform can't print yet: remove it"));

@@ -20,10 +20,14 @@ impl Analysis {
     pub(super) fn sequence(&mut self, node: &SequenceNode) {
         let span = node.name.line.span;
         if node.end.is_none() && !node.body.iter().any(|body| torn_end(body).is_some()) {
+            let is_cycle = SequenceId::parse(&node.name.name.text).is_some_and(|id| id.row().is_cycle);
             self.report(
-                Diag::new(Code::PF002, format!("{} has no End", node.name.name.text))
-                    .at(span, "this sequence")
-                    .help("write `End` alone on a line after its last line"),
+                Diag::new(Code::PF002, format!("{} has no End", node.name.name.text)).at(span, "this sequence").help(
+                    match is_cycle {
+                        true => "write `End Cancel` alone on a line after its last line (`End` after single moves)",
+                        false => "write `End` alone on a line after its last line",
+                    },
+                ),
             );
         }
         let mut words = vec![node.name.name.text.as_str()];

@@ -75,6 +75,8 @@ pub struct MoreWork {
     pub letter: u8,
     /// The number that selects the first of these offsets.
     pub number: f64,
+    /// The number that selects the last offset that the control has. `None`: no limit is known.
+    pub last: Option<f64>,
 }
 
 /// The characters at the end of a line.

@@ -7,6 +7,7 @@ use super::settings::{
 };
 use super::store::Setting;
 use crate::lang::{Beam, Coolant, Origin, VarId};
+use crate::syntax::Spanned;
 
 /// The arguments of `Dwell`, such as `G4 P s`.
 impl Setting for DwellWord {
@@ -69,16 +70,22 @@ impl Setting for SequenceNumbers {
     }
 }
 
-/// The arguments of `MoreWork`, such as `7 G54.1 P1` or `5 G505`.
+/// The arguments of `MoreWork`, such as `7 G54.1 P1`, `5 G505` or `7 G54.1 P1 48`.
 impl Setting for Vec<MoreWork> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let first = whole(&args.all[0], 2, 999)? as u16;
         if self.last().is_some_and(|last| last.first >= first) {
             return bad(args.all.first(), "the fixtures of MoreWork must increase from line to line");
         }
-        let (code, word) = match &args.all[1..] {
+        let is_last = |arg: &Spanned| arg.text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+        let (words, last) = match &args.all[1..] {
+            [words @ .., last] if !words.is_empty() && is_last(last) => (words, Some(number(last)?)),
+            words => (words, None),
+        };
+        let (code, word) = match words {
             [word] => (None, word),
-            words => (Some(args.code(&words[0], 'G')?.code), &words[1]),
+            [code, word] => (Some(args.code(code, 'G')?.code), word),
+            _ => return bad(args.all.last(), "the last number of MoreWork is a number without a letter, such as `48`"),
         };
         let mut rest = word.text.chars();
         let letter = rest.next().filter(char::is_ascii_alphabetic);
@@ -88,7 +95,10 @@ impl Setting for Vec<MoreWork> {
         let (Some(letter), Some(number)) = (letter, number) else {
             return bad(Some(word), format!("`{}` is not a word such as `G505` or `P1`", word.text));
         };
-        self.push(MoreWork { first, code, letter: letter.to_ascii_uppercase() as u8, number });
+        if last.is_some_and(|last| last < number) {
+            return bad(args.all.last(), format!("the last number must be {number} or more"));
+        }
+        self.push(MoreWork { first, code, letter: letter.to_ascii_uppercase() as u8, number, last });
         Ok(())
     }
 }
@@ -97,7 +107,7 @@ impl Setting for Vec<MoreWork> {
 impl Setting for Vec<CoolantKind> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let kind = match Coolant::parse(&args.all[0].text) {
-            Some(kind @ (Coolant::THROUGH | Coolant::AIR | Coolant::MIST | Coolant::HIGH)) => kind,
+            Some(kind) if Coolant::FURTHER.contains(&kind) => kind,
             Some(_) => return bad(args.all.first(), "define flood coolant and its end with `Coolant M8 M9`"),
             None => return bad(args.all.first(), "a kind of coolant must be through, air, mist or high"),
         };

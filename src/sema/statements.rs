@@ -77,7 +77,10 @@ impl Analysis {
                 nothing if nothing.is_empty() => nothing,
                 without => format!(" (without the command: {without})"),
             };
-            diag.help = Some(format!("{}: {}{without}", id.name(), id.row().meaning));
+            let example =
+                id.row().example.map(|example| format!("; example: `{} {example}`", id.name())).unwrap_or_default();
+            let meaning = || format!("{}: {}{example}{without}", id.name(), id.row().meaning);
+            diag.help = Some(bad.help.unwrap_or_else(meaning));
             self.report(diag);
         }
     }

@@ -1,9 +1,10 @@
 //! How a field of the settings is set from the arguments of a command, for each type of field.
 
-use super::args::{Arguments, Read, bad, whole};
+use super::args::{Arguments, Read, bad, bad_with, whole};
 use super::code::Code;
 use crate::control::{self, Control};
 use crate::lang::Args;
+use crate::suggest::nearest;
 
 /// A field of the settings that a command sets.
 pub trait Setting {
@@ -32,14 +33,25 @@ impl Setting for bool {
 impl Setting for Option<&'static Control> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let name = args.text().to_ascii_lowercase();
-        if control::is_file(&name) {
+        if args.all.len() == 1 && control::is_file(&name) {
             return Ok(());
         }
         let Some(control) = Control::named(&name) else {
+            // a model after the name, as in `Fanuc 0i-MD`
+            let first = &args.all[0].text.to_ascii_lowercase();
+            let own = control::names().find(|known| known == first);
+            if let Some(near) = own.or_else(|| nearest(&name, control::names())) {
+                let help = format!(
+                    "write `Control {near}`; for a control with differences, `postform new --control-file {near} -o \
+                     my-control.toml` makes a file"
+                );
+                return bad_with(args.all.first(), format!("there is no control `{}`", args.text()), help);
+            }
             let known = control::names().collect::<Vec<_>>().join(", ");
             let message = format!(
                 "there is no control `{name}`: use {known}, or a file, as `my-vf2.toml`; most other controls are \
-                 similar to `fanuc`: `postform new --control-file fanuc -o {name}.toml` makes a file to start from"
+                 similar to `fanuc`: `postform new --control-file fanuc -o {}.toml` makes a file to start from",
+                name.replace(' ', "-")
             );
             return bad(args.all.first(), message);
         };

@@ -7,7 +7,7 @@ use super::model::{Line, Word, WordKind};
 use super::names::{Context, property, variable};
 use super::property::{Property, PropertyKind};
 use crate::diag::{Code, Diag};
-use crate::lang::{TextVar, WIDEST};
+use crate::lang::{TextVar, VarId, WIDEST};
 use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
 use crate::terminal::is_invisible;
@@ -19,6 +19,12 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     if let Some(span) = statement(codes) {
         let diag = Diag::new(Code::PF001, "a statement in the control's own language, with brackets");
         diags.push(in_backquotes(diag.at(span, "these brackets are not variables"), span));
+        words.push(Word { span, glued: false, kind: WordKind::Quote(String::new()) });
+        return Line { span: body.line.span, words };
+    }
+    if let Some((span, word)) = misspelt_variable(codes) {
+        let diag = Diag::new(Code::PF001, "a variable with a space in its name, or without its second bracket");
+        diags.push(diag.at(span, "not a word").help(format!("write `{word}`")));
         words.push(Word { span, glued: false, kind: WordKind::Quote(String::new()) });
         return Line { span: body.line.span, words };
     }
@@ -301,6 +307,22 @@ impl<'a> Note<'a> {
             self.glued = true;
         }
     }
+}
+
+/// Finds a variable with a space in its name, such as `T[next tool]`, or without its second bracket, such as `M[cool`.
+/// Returns its location and the correct word.
+fn misspelt_variable(words: &[syntax::Word]) -> Option<(Span, String)> {
+    let text = |word: &syntax::Word| match word.pieces.as_ref() {
+        [Piece { kind: PieceKind::Stray(text), .. }] => text.clone(),
+        _ => String::new(),
+    };
+    let opens = words.iter().position(|word| text(word).contains('['))?;
+    let closes = words.iter().rposition(|word| text(word).contains(']')).unwrap_or(opens);
+    let all: String = words.get(opens..=closes)?.iter().map(text).collect();
+    let (letter, name) = all.split_once('[')?;
+    let name = name.strip_suffix(']').unwrap_or(name);
+    let is_variable = letter.len() <= 1 && (VarId::parse(name).is_some() || TextVar::is_text(name));
+    is_variable.then(|| (words[opens].span.to(words[closes].span), format!("{letter}[{name}]")))
 }
 
 /// Checks a text that is printed as written. Reports a text that is certainly a mistake.

@@ -231,6 +231,28 @@ fn what_is_left_out_is_warned_of() {
     assert!(warnings.iter().any(|warning| warning.contains("M99")), "{warnings:?}");
 }
 
+/// A code of the machine's builder may have a meaning that a job can contain. The help names the file that gives this
+/// meaning, and its line.
+#[test]
+fn the_help_of_a_builders_code_names_the_control_file() {
+    let help = |code: &str| {
+        let program = format!("{HEAD}{code}\nG1 X1. F5.\nM30\n");
+        let checked = check(&plain_post("haas.pf"));
+        let form = compile(&checked.form);
+        let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
+        let mut warnings = Vec::new();
+        let options = job_options(RunSettings::new(control("fanuc")));
+        read_program(Cursor::new(program), &options, &mut warnings, &mut renderer).unwrap();
+        warnings.into_iter().find_map(|diag| diag.help).unwrap()
+    };
+    for code in ["M51", "M59"] {
+        let (help, line) = (help(code), format!("`\"{code}\" = {{ is = \"through\" }}`"));
+        assert!(help.contains(&line) && help.contains("--job-control my-control.toml"), "{help}");
+        assert!(help.contains("postform new --control-file fanuc -o my-control.toml"), "{help}");
+    }
+    assert_eq!(help("G61"), "if the machine needs it, let the form print it");
+}
+
 /// The holes of a pattern become one cycle, even if the program ends the cycle after each hole and moves at rapid at
 /// the return height.
 #[test]

@@ -399,6 +399,14 @@ fn a_dwell_by_its_sequence_needs_no_format() {
     assert!(seconds(&plain) && !seconds(&format!("{plain}\nDwellBlock\n(WAIT [dwell])\nEnd\n")));
 }
 
+/// If the unit of the dwell is not that of the control, only this is reported, not the missing decimals of seconds.
+#[test]
+fn a_dwell_in_the_wrong_unit_needs_no_decimals() {
+    let fanuc = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+    let found = found(&support::check(&fanuc.replace("Dwell G4 P ms", "Dwell G04 P s"))).diags;
+    assert_eq!(found.iter().map(|diag| diag.code).collect::<Vec<_>>(), [Code::PF311]);
+}
+
 /// The rules also find variants of the mistakes on the pages.
 #[test]
 fn mistakes_are_found_in_other_words_too() {

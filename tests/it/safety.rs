@@ -3,7 +3,7 @@
 use crate::support;
 use crate::support::folder::{Folder, err};
 use crate::support::{job, mill, path_lines, plain_post, program, render, wrong};
-use postform::diag::Location;
+use postform::diag::{Diag, Location};
 use postform::internals::compile::compile;
 use postform::internals::json::read_lines;
 use postform::internals::render::{Options, Renderer};
@@ -428,15 +428,26 @@ fn a_new_tool_does_not_keep_the_last_ones_depth() {
 /// Some missing or contradictory values of a cycle are not errors. They give a warning.
 #[test]
 fn odd_cycles_are_warned_of() {
-    let warned = |cycle: &str, code: &str| {
-        let rendered = support::render(&mill("", ""), &job(cycle)).unwrap();
-        assert!(rendered.notes.iter().any(|n| n.code.name() == code), "{code}: {:?}", rendered.notes);
-    };
-    warned("{\"cycle\":{\"kind\":\"deep\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}", "PC060");
-    warned(
-        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}",
-        "PC053",
-    );
+    const TAP: &str = "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let cases = [
+        ("", "\"kind\":\"deep\",\"clear\":1", "PC060", "drills in one peck"),
+        (
+            "",
+            "\"kind\":\"drill\",\"clear\":1,\"return\":0.5",
+            "PC053",
+            "0.5 above the point, is below the clearance, 1",
+        ),
+        // 3 inches are 76.19999999999999 mm
+        ("", "\"kind\":\"drill\",\"clear\":76.19999999999999,\"return\":25", "PC053", "the clearance, 76.2;"),
+        (TAP, "\"kind\":\"tap\",\"clear\":1,\"step\":0.5", "PC061", "print `Q[vbite]` in the sequence `Tap`"),
+    ];
+    for (sequences, cycle, code, wanted) in cases {
+        let path = format!("{{\"cycle\":{{{cycle},\"depth\":1,\"feed\":5,\"points\":[[1,1,0]]}}}}");
+        let rendered = support::render(&mill("", sequences), &job(&path)).unwrap();
+        let told = |note: &Diag| format!("{}; {}", note.message, note.help.as_deref().unwrap_or_default());
+        let found = rendered.notes.iter().any(|note| note.code.name() == code && told(note).contains(wanted));
+        assert!(found, "{code}: {:?}", rendered.notes);
+    }
 }
 
 /// Without its code, a surface speed would be read as revolutions.
@@ -1104,6 +1115,10 @@ fn more_work_names_further_offsets() {
         let lines = program(&mill(commands, ""), &first);
         assert!(lines[0].starts_with("PR037"), "{commands}: {lines:?}");
     }
+    // the last number ends the range: fixture 8 is P2, fixture 9 is after the last one
+    let limited = mill("MoreWork 7 G54.1 P1 2", "");
+    assert_eq!(program(&limited, &first)[3], "G0 G54.1 P2 X0 Y0 Z1.");
+    assert!(program(&limited, &job(path))[0].starts_with("PR037"));
     for line in ["1 G54", "7 ¡1", "7 G54.1 ¡1", "7 54.1", "x G54", "7 G54.1 P", "7 G54.1 P1.x"] {
         let form = Source::from_text("form.pf", mill(&format!("MoreWork {line}"), ""));
         let error = Post::compile(form, &NoFiles).err().unwrap_or_else(|| panic!("{line} is taken"));

@@ -4,6 +4,7 @@
 //! LinuxCNC's own rules are tested with recorded programs (`nc_golden.rs`) and with its interpreter (`linuxcnc_random.rs`).
 
 use crate::support::control;
+use postform::diag::Diag;
 use postform::internals::control::Control;
 use std::io::Cursor;
 
@@ -41,17 +42,36 @@ fn refused(control: &'static Control, program: &str) -> (String, u64) {
 }
 
 fn refused_with(settings: RunSettings, program: &str) -> (String, u64) {
+    let (diag, line) = refusal(settings, program);
+    (diag.code.name().into(), line)
+}
+
+/// The finding of the block that the control refuses, and the line of this block.
+fn refusal(settings: RunSettings, program: &str) -> (Box<Diag>, u64) {
     let mut simulator = Simulator::new(Cursor::new(program), settings);
     loop {
         match simulator.step(&mut Vec::new()) {
             Ok(true) => {}
             Ok(false) => panic!("not refused: {program}"),
             Err(RunError::Refused(diag, line)) => {
-                assert!(diag.help.is_some_and(|help| !help.is_empty()), "{}", diag.message);
-                return (diag.code.name().into(), line);
+                assert!(diag.help.as_ref().is_some_and(|help| !help.is_empty()), "{}", diag.message);
+                return (diag, line);
             }
             Err(RunError::Io(error)) => panic!("{error}"),
         }
+    }
+}
+
+#[test]
+fn an_additional_work_offset_needs_a_number_that_postform_knows() {
+    for (block, message) in [
+        ("G54.1 G0 X1.", "an additional work offset without its number"),
+        ("G54.1 P141 G0 X1.", "postform knows no work offset P141, only P1 to P99"),
+        ("G54.1 P0 G0 X1.", "postform knows no work offset P0, only P1 to P99"),
+    ] {
+        let (found, _) = refusal(RunSettings::new(control("fanuc")), &format!("{block}\nM30\n"));
+        assert!(found.message.starts_with(message), "{}", found.message);
+        assert!(found.help.unwrap().contains("write P1 to P99"));
     }
 }
 

@@ -47,6 +47,20 @@ fn slips_in_forms() {
         (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n#500=1\n"), ["PF101", "`` `#500=1` ``"]),
         (changed("\nM30\n", "\nM30\nEND PGM part MM\n"), ["PF405", "in backquotes"]),
         (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n@ if [tool] = 1\nM8\n@end\n"), ["PF707", "did you mean `@if`?"]),
+        (changed("End Cancel\n", "\n"), ["PF002", "write `End Cancel`"]),
+        (changed("\nEndCode", "\nOptionalStop\nM1\nEnd\n\nEndCode"), ["PF201", "did you mean `OptStop`?"]),
+        (changed("MoreWork 7 G154 P1", "MoreWork G54.1 P1 48"), ["PF302", "example: `MoreWork 7 G54.1 P1`"]),
+        (changed("MoreWork 7 G154 P1", "MoreWork 7 G54.1P1"), ["PF302", "example: `MoreWork 7 G54.1 P1`"]),
+        (changed("MoreWork 7 G154 P1", "MoreWork 7 G54.1 P1 P48"), ["PF302", "without a letter, such as `48`"]),
+        (changed("MoreWork 7 G154 P1", "MoreWork 7 G54.1 P9 8"), ["PF302", "must be 9 or more"]),
+        (changed("CoolantKind through M88", "Coolant through M51"), ["PF302", "write `CoolantKind through M51 M89`"]),
+        (changed("M[coolantoff]", "M[coolantoff"), ["PF001", "write `M[coolantoff]`"]),
+        (changed("T[tool] M6", "T[tool] M6\nT[next tool]"), ["PF001", "write `T[nexttool]`"]),
+        (
+            changed("Control haas", "Control Fanuc 0i-MD"),
+            ["there is no control `Fanuc 0i-MD`", "write `Control fanuc`"],
+        ),
+        (changed("Control haas", "Control fanuk"), ["PF302", "write `Control fanuc`"]),
         (changed("\nEndCode", "\nEndCut\nM5\nEnd\n\nEndCode"), ["PF010", "write `Machine Torch` or `Machine Laser`"]),
     ];
     let folder = folder("slips-forms");
@@ -117,6 +131,10 @@ fn slips_in_jobs() {
         (good.replacen("\"inch\"", "\"metric\"", 1), "write \"mm\""),
         (good.replacen("\"cw\"", "\"CW\"", 1), "write \"cw\""),
         (good.replacen("\"work\":54", "\"work\":\"G54\"", 1), "write 54, without quotes"),
+        (good.replacen("\"work\":54", "\"work\":\"G54.1 P1\"", 1), "7 in a form with `MoreWork 7 G54.1 P1`"),
+        (good.replacen("\"work\":54", "\"work\":\"G154 P44\"", 1), "103 in a form with `MoreWork 7 G154 P1`"),
+        (job("{\"arc\":\"cw\"}"), "`{\"to\": [10, 0], \"center\": [5, 0], \"direction\": \"cw\"}`"),
+        (job("{\"cycle\":{\"kind\":\"peck\",\"depth\":1,\"points\":[[1,1,0]]}}"), "write \"deep\""),
         (job("{\"cycle\":{\"kind\":\"dril\",\"depth\":1,\"points\":[[1,1,0]]}}"), "did you mean `drill`?"),
     ];
     let folder = folder("slips-jobs");
@@ -133,13 +151,14 @@ fn slips_on_the_command_line() {
     fs::write(folder.join("haas.pf"), plain_post("haas.pf")).unwrap();
     fs::write(folder.join("job.json"), job("{\"line\":[1,0,0]}")).unwrap();
     fs::write(folder.join("part.nc"), "%\nO1\nM30\n%\n").unwrap();
-    let table: [(&[&str], &str); 7] = [
+    let table: [(&[&str], &str); 8] = [
         (&["lint", "job.json"], "job.json is a job, not a form"),
         (&["lint", "part.nc"], "part.nc is an NC program, not a form"),
         (&["render", "job.json", "--form", "part.nc"], "`postform simulate part.nc` runs programs"),
         (&["check", "haas.pf"], "`postform lint haas.pf` checks a form"),
         (&["render", "job.json", "--form", "has.pf"], "forms in that folder: haas.pf"),
         (&["render", "haas.pf", "--form", "job.json"], "the job comes first"),
+        (&["render", "job.json", "--form", "haas.pf", "--set", "header=off"], "the form has no property `header`"),
         (&["render", "job.json", "haas.pf"], "`postform render JOB --form haas.pf`"),
     ];
     for (arguments, wanted) in table {

@@ -30,7 +30,7 @@ fn answer(option: &str, properties: &[Property], options: &mut Options) -> Resul
         let names: Vec<&str> = properties.iter().map(|property| property.name.as_str()).collect();
         match did_you_mean(own, names.iter().copied()) {
             Some(help) => format!("`{own}` is not a property; {help}"),
-            None if names.is_empty() => error.to_string(),
+            None if names.is_empty() => format!("the form has no property `{own}`, and {error}"),
             None => format!("{error}; the form's properties are {}", names.join(", ")),
         }
     })?;

@@ -17,7 +17,7 @@ macro_rules! command_rows {
                 "the type of machine; it decides which sequences and variables the form may use";
             Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
                 "units of the lengths in the form; a job in other units needs a printed [unitmode]";
-            Control "Control" (Words(1, 1, "the name of a control, such as `haas`, or a control file, such as `my-vf2.toml`"))
+            Control "Control" (Words(1, 9, "the name of a control, such as `haas`, or a control file, such as `my-vf2.toml`"))
                 once (of("").told("similar to fanuc")) Ours {control: Option<&'static Control>}
                 "the control for which the programs are checked";
             MachineFile "MachineFile" (Words(1, 1, "a machine file, such as `vf2.toml`"))
@@ -69,7 +69,7 @@ macro_rules! command_rows {
                 "[work] of fixture 1; the next fixtures have the next numbers";
             WorkDefault "WorkDefault" (Codes('G', 1, 1)) once (of("54")) Ours {work_default: f64}
                 "[work] of a job without a work offset";
-            MoreWork "MoreWork" (Words(2, 3, "the first fixture of the range, and the words of that fixture, as `7 G54.1 P1`"))
+            MoreWork "MoreWork" (Words(2, 4, "the first fixture of the range, the words of that fixture, and optionally a last number, which ends the range, as `7 G54.1 P1` or `7 G54.1 P1 48`"))
                 many (of("")) Ours {more_work: Vec<MoreWork>} if (Printed(V::Work)) eg "7 G54.1 P1"
                 "words that `G[work]` prints for the first fixture of the range; the last number increases by 1 for each further fixture";
             IncAbs "Inc/Abs" (Codes('G', 2, 2)) once (of("91 90")) Ours {inc_abs: [f64; 2]}

@@ -6,11 +6,15 @@ use crate::lint::view::View;
 use crate::number::{Digits, LetterFormat, Point};
 use crate::sema::Word;
 
+use super::dwell_unit::wrong_unit;
+
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    // PF311 reports a dwell in the unit of another control; in milliseconds, the dwell needs no decimals
+    let seconds = !view.settings.dwell.milliseconds && wrong_unit(view).is_none();
     for (&letter, (format, span)) in &view.form.formats {
         let printed =
             view.words().filter(|word| view.format_letter(word) == Some(letter)).filter_map(Word::printed_var);
-        let wanted = printed.map(|var| (needed(view, var), var)).max_by_key(|(decimals, _)| *decimals);
+        let wanted = printed.map(|var| (needed(view, var, seconds), var)).max_by_key(|(decimals, _)| *decimals);
         let (wanted, what) = match wanted {
             Some((decimals, var)) => (decimals, format!("[{}]", var.name())),
             None => (0, String::new()),
@@ -23,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         // a generated dwell block uses the letter of the command `Dwell`; DwellBlock replaces this block
         let dwell = &view.settings.dwell;
         let generated = view.body(SequenceId::DwellBlock).is_none();
-        let dwells = letter == dwell.letter && !dwell.milliseconds && generated && wanted < 2;
+        let dwells = letter == dwell.letter && seconds && generated && wanted < 2;
         let (wanted, what) = if dwells { (2, "a dwell in seconds".to_owned()) } else { (wanted, what) };
         if format.dec.count >= wanted {
             continue;
@@ -57,7 +61,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 .help(help),
         );
     }
-    built_in(view, diags);
+    built_in(view, seconds, diags);
 }
 
 /// Whether the letter also prints counts or codes. A format with decimals would print counts and codes with a point
@@ -68,11 +72,11 @@ fn counts(view: &View, letter: u8) -> bool {
 }
 
 /// Checks letters without a format. The built-in formats of letters that print counts have no decimals.
-fn built_in(view: &View, diags: &mut Vec<Diag>) {
+fn built_in(view: &View, seconds: bool, diags: &mut Vec<Diag>) {
     let mut told = Vec::new();
     for word in view.words() {
         let (Some(letter), Some(var)) = (word.letter(), word.printed_var()) else { continue };
-        let (row, wanted) = (view.letters[letter], needed(view, var));
+        let (row, wanted) = (view.letters[letter], needed(view, var, seconds));
         let decimals = row.format.dec.count;
         if row.has_format || decimals >= wanted || told.contains(&letter) {
             continue;
@@ -102,8 +106,8 @@ fn length(view: &View) -> u8 {
     if view.is_metric() { 3 } else { 4 }
 }
 
-/// Number of decimals that a variable needs.
-fn needed(view: &View, var: VarId) -> u8 {
+/// Number of decimals that a variable needs. `seconds`: the form prints dwells in seconds.
+fn needed(view: &View, var: VarId, seconds: bool) -> u8 {
     match var.row().unit {
         Unit::Length => length(view),
         // all controls use whole numbers for tip angles
@@ -112,7 +116,7 @@ fn needed(view: &View, var: VarId) -> u8 {
         // a feed per revolution is a chip thickness, so it needs as many decimals as a length
         Unit::Feed if view.settings.machine == Machine::Lathe => length(view),
         Unit::Feed if !view.is_metric() => 1,
-        Unit::Time if !view.settings.dwell.milliseconds => 2,
+        Unit::Time if seconds => 2,
         _ => 0,
     }
 }

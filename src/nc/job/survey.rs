@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::fault::{refused, unsaid, warning};
 use super::options::JobOptions;
-use crate::control::{Code, Meaning, ToolLength};
+use crate::control::{Code, Control, Meaning, ToolLength};
 use crate::diag::{self, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Compensation, Cutter, Item, Position};
@@ -291,7 +291,18 @@ impl Run<'_> {
             let name = code.map_or(word, |code| code.to_string());
             let times = if count > 1 { format!(", {count} times") } else { String::new() };
             let message = format!("{name}{times} is left out: a job can't contain it");
-            self.warnings.push(warning(line, message, "if the machine needs it, let the form print it"));
+            let control = simulator.state().settings.control;
+            let help = match code.filter(|code| is_of_builder(*code, control)) {
+                Some(code) => format!(
+                    "if {code} has another meaning on your machine, such as coolant, make a control file (`postform new \
+                     --control-file {} -o my-control.toml`), write `\"{code}\" = {{ is = \"through\" }}` (or the meaning \
+                     it has, such as flood or coolant-off) under [codes], and give --job-control my-control.toml; \
+                     otherwise, if the machine needs it, let the form print it",
+                    control.name()
+                ),
+                None => "if the machine needs it, let the form print it".to_owned(),
+            };
+            self.warnings.push(warning(line, message, &help));
         }
         if simulator.begins_again() {
             let message = "the program ends with M99 and begins again, but a job runs only once";
@@ -300,6 +311,11 @@ impl Run<'_> {
         self.survey.program = simulator.program();
         Ok(self.survey)
     }
+}
+
+/// Whether the code is an M code of the machine's builder, to which the control gives no effect on the motions.
+fn is_of_builder(code: Code, control: &Control) -> bool {
+    code.letter == b'M' && matches!(control.meaning(code), None | Some(Meaning::Harmless | Meaning::Unsaid))
 }
 
 /// Records the register of a tool. A tool may have only one register of each kind.

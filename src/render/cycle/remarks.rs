@@ -1,6 +1,7 @@
 //! Warnings about cycle values that are missing or contradictory, but are not errors.
 
 use super::planned::SAME;
+use crate::cycle::rounded;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::render::printer::Printer;
@@ -19,6 +20,7 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     // if the first point is above the return plane, the tool returns to the clearance of the point, which is no
     // contradiction
     if let Some(height) = spec.return_height.filter(|height| (0.0..clear - SAME).contains(height)) {
+        let [height, clear] = [height, clear].map(rounded);
         let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
         out.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");
     }
@@ -45,7 +47,13 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
         sequence.and_then(|id| shape.program.routine(id)).is_some_and(|routine| routine.vars.has(VarId::Vbite));
     if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
         let message = "`step` has no effect, because this tap does not peck";
-        out.note(Code::PC061, message.into(), "give the kind of pecks with `mode`, or remove `step`");
+        let help = match sequence {
+            Some(id) => {
+                format!("print `Q[vbite]` in the sequence `{}` if the control's tap pecks, or remove `step`", id.name())
+            }
+            None => "give the kind of pecks with `mode`, or remove `step`".to_owned(),
+        };
+        out.note(Code::PC061, message.into(), &help);
     }
     if spec.ratio.is_some() && (spec.norevr || spec.rapout) {
         let message = "`ratio` has no effect, because this tap does not feed out";

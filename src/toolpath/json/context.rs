@@ -136,7 +136,7 @@ fn of_serde(error: &serde_json::Error) -> Diag {
 /// A suggestion for a word that is not in the list of words, or for a text that should be a number.
 fn meant(text: &str) -> Option<String> {
     /// Words that users or other formats use instead of postform's words.
-    const ALSO: [(&str, &str); 10] = [
+    const ALSO: [(&str, &str); 15] = [
         ("metric", "mm"),
         ("millimeter", "mm"),
         ("millimeters", "mm"),
@@ -147,11 +147,21 @@ fn meant(text: &str) -> Option<String> {
         ("counterclockwise", "ccw"),
         ("m3", "cw"),
         ("m4", "ccw"),
+        ("peck", "deep"),
+        ("pecking", "deep"),
+        ("tapping", "tap"),
+        ("boring", "bore"),
+        ("countersink", "csink"),
     ];
+    if let Some((_, example)) = OBJECTS.iter().find(|(name, _)| text.ends_with(&format!("expected {name}, an object")))
+    {
+        return Some(format!("write an object, such as `{example}`"));
+    }
     let (given, expected) = text.split_once(": string \"")?.1.split_once("\", expected ")?;
     if expected == "a number" {
         let digits = given.trim_start_matches(|c: char| c.is_ascii_alphabetic());
-        return digits.parse::<f64>().ok().map(|_| format!("write {digits}, without quotes"));
+        let number = digits.parse::<f64>().ok().map(|_| format!("write {digits}, without quotes"));
+        return number.or_else(|| fixture(given));
     }
     let words = || expected.split(" or ").map(|word| word.trim_matches('"'));
     let lower = given.to_lowercase();
@@ -160,6 +170,30 @@ fn meant(text: &str) -> Option<String> {
         Some(word) => Some(format!("write \"{word}\"")),
         None => did_you_mean(given, words()),
     }
+}
+
+/// Objects of a job, each with an example.
+const OBJECTS: [(&str, &str); 5] = [
+    ("a tool", r#"{"number": 1, "diameter": 10}"#),
+    ("a spindle", r#"{"speed": 1000, "direction": "cw"}"#),
+    ("an arc", r#"{"to": [10, 0], "center": [5, 0], "direction": "cw"}"#),
+    ("a cycle", r#"{"kind": "drill", "depth": 10, "clear": 2, "feed": 100, "points": [[0, 0, 0]]}"#),
+    ("a call", r#"{"sub": 100, "times": 1}"#),
+];
+
+/// A suggestion for the words of an additional work offset, such as `G54.1 P1`, instead of the number of its fixture.
+fn fixture(given: &str) -> Option<String> {
+    const FIRST: u32 = 7;
+    let (code, word) = given.split_once(' ')?;
+    let letter = word.get(..1)?;
+    let number = word.get(1..)?.parse::<u32>().ok().filter(|number| (1..=999).contains(number))?;
+    let fixture = match FIRST - 1 + number {
+        fixture @ ..50 => fixture,
+        // from 50 on, numbers are codes: 54 is the code of the first fixture
+        fixture => fixture + 53,
+    };
+    let more = format!("`MoreWork {FIRST} {code} {letter}1`");
+    Some(format!("write the number of the fixture, without quotes: {fixture} in a form with {more}"))
 }
 
 /// The correction for a common mistake in JSON.

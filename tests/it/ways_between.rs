@@ -194,7 +194,7 @@ fn the_axes_of_a_lathe_move_from_home_in_the_order_of_the_job() {
         let job = GROOVE.replace("ENTER", enter).replace("LEAVE", leave);
         let right = printed(&post, &job);
         assert_eq!(right.matches(from).count(), 1, "{from}\n{right}");
-        post.verify(Job::json(&job), &right.replacen(from, to, 1)).unwrap()
+        post.verify(Job::json(&job), right.replacen(from, to, 1)).unwrap()
     };
     let (z_first, x_first) = ("Z-40.\nX82.\n", "X82.\nZ-40.\n");
     let (job_z, job_x) = (r#"{"rapid":[-40]},{"rapid":[null,41]}"#, r#"{"rapid":[null,41]},{"rapid":[-40]}"#);

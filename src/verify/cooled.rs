@@ -58,8 +58,13 @@ impl Codes {
 /// Of kinds other than flood, mist and through the spindle, only a dry cut is found.
 pub fn differs([wanted, is]: [&State; 2]) -> Option<String> {
     let (wanted, is) = (wanted.coolant?, is.coolant?);
-    let by_control = [Coolant::FLOOD, Coolant::MIST, Coolant::THROUGH];
-    let agrees = wanted.each().all(|kind| if by_control.contains(&kind) { is.holds(kind) } else { is != Coolant::OFF });
+    // of flood and mist, the state contains only the kind that was turned on later
+    let either = wanted.holds(Coolant::FLOOD.and(Coolant::MIST));
+    let agrees = wanted.each().all(|kind| match kind {
+        Coolant::FLOOD | Coolant::MIST if either => is.holds(Coolant::FLOOD) || is.holds(Coolant::MIST),
+        Coolant::FLOOD | Coolant::MIST | Coolant::THROUGH => is.holds(kind),
+        _ => is != Coolant::OFF,
+    });
     (!agrees).then(|| format!("the coolant is {}, but {} in the job", name(is), name(wanted)))
 }
 

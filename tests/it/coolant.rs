@@ -316,6 +316,9 @@ fn a_dry_cut_is_found_for_each_kind() {
         ("\"flood\"", "M8", "M88", own, "the coolant is through, but flood in the job"),
         ("\"flood\"", "M8", "M12", own, "the coolant is air, but flood in the job"),
         ("\"mist\"", "M7", "M88", own, "the coolant is through, but mist in the job"),
+        // of flood and mist at once, only a cut without both is found
+        ("[\"flood\",\"mist\"]", "M8", "M8", own, ""),
+        ("[\"flood\",\"mist\"]", "M8\nN50 M7", "M88", own, "the coolant is through, but flood and mist in the job"),
         ("\"air\"", "M12", "M12", own, ""),
         ("\"air\"", "M12", "", own, "the coolant is off, but air in the job"),
         ("[\"through\",\"air\"]", "M12", "M12", own, ""),

@@ -2,8 +2,8 @@
 
 use crate::control::{Code, Control, Meaning};
 use crate::lang::Coolant;
-use crate::nc::{Kind, coolant_of, tokens};
-use crate::toolpath::{Spindle, SpindleTurn};
+use crate::nc::{Kind, Rotation, coolant_of, rotation_of, tokens};
+use crate::toolpath::Spindle;
 
 /// The state that a text item leaves active.
 #[derive(Default)]
@@ -49,12 +49,7 @@ impl Left {
 
     fn code(&mut self, meaning: Meaning) {
         use Meaning as M;
-        let turn = match meaning {
-            M::SpindleCw | M::SpindleCwCoolant => Some(SpindleTurn::Cw),
-            M::SpindleCcw | M::SpindleCcwCoolant => Some(SpindleTurn::Ccw),
-            M::SpindleOff => Some(SpindleTurn::Off),
-            _ => None,
-        };
+        let turn = rotation_of(meaning).map(Rotation::turn);
         let coolant = coolant_of(meaning).filter(|_| meaning != M::Through);
         let other = match meaning {
             _ if turn.is_some() || coolant.is_some() => Other::None,

@@ -1,7 +1,7 @@
 //! The actions of a machine that runs a program.
 
 use crate::control::{Code, Meaning, Motions, Row};
-use crate::toolpath::{Coolant, Direction, FeedMode, Plane, Side, StopKind, Units};
+use crate::toolpath::{Coolant, Direction, FeedMode, Plane, Side, SpindleTurn, StopKind, Units};
 
 /// X Y Z A B C in program coordinates: lengths in the program's units, angles in degrees.
 pub type Position = [f64; 6];
@@ -191,6 +191,15 @@ impl Rotation {
             Rotation::Cw => "cw",
             Rotation::Ccw => "ccw",
             Rotation::Stop => "stop",
+        }
+    }
+
+    /// The state of the spindle in a job.
+    pub(crate) fn turn(self) -> SpindleTurn {
+        match self {
+            Rotation::Cw => SpindleTurn::Cw,
+            Rotation::Ccw => SpindleTurn::Ccw,
+            Rotation::Stop => SpindleTurn::Off,
         }
     }
 

@@ -181,6 +181,8 @@ impl Surveyor {
     fn operation(&mut self, change: &ToolChange) {
         self.flush();
         let before = self.tool_of_now();
+        let new = change.changes_to(before.map(|row| self.survey.tools[row].tool.number));
+        self.survey.changes.extend(new.map(|tool| tool.number));
         let tool = match &change.tool {
             None => before,
             Some(tool) => {
@@ -190,9 +192,6 @@ impl Surveyor {
                     self.survey.tools.push(ToolUse { tool: tool.clone(), first, totals, operations: Vec::new() });
                     self.survey.tools.len() - 1
                 });
-                if change.reloads || Some(row) != before {
-                    self.survey.changes.push(tool.number);
-                }
                 Some(row)
             }
         };
@@ -204,7 +203,7 @@ impl Surveyor {
         if let Some(work) = change.work {
             self.work = self.counted(work);
         }
-        self.motion.operation(change, change.reloads || tool != before);
+        self.motion.operation(change, new.is_some());
         self.survey.operations.push(Operation {
             begins,
             tool,

@@ -1,7 +1,7 @@
 //! The switches of a machine: spindle, coolant, work offset. In a job, events before the next move set these switches.
 
 use crate::nc::action::Rotation;
-use crate::toolpath::{Coolant, Event, Spindle, SpindleTurn};
+use crate::toolpath::{Coolant, Event, Spindle};
 
 /// The switches of a machine. The reader compares the state that its events have set with the state that the program requires.
 #[derive(Clone, Copy, PartialEq, Default)]
@@ -30,11 +30,7 @@ impl Switches {
         Spindle {
             // a speed of 0 with a stopped spindle is left out
             speed: self.speed.filter(|&speed| speed > 0.0 || self.turns()),
-            turn: Some(match self.rotation {
-                Some(Rotation::Cw) => SpindleTurn::Cw,
-                Some(Rotation::Ccw) => SpindleTurn::Ccw,
-                Some(Rotation::Stop) | None => SpindleTurn::Off,
-            }),
+            turn: Some(self.rotation.unwrap_or(Rotation::Stop).turn()),
             css: self.css,
             max: self.limit,
         }

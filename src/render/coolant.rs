@@ -36,8 +36,8 @@ pub fn codes_of(kind: Coolant, settings: &Settings) -> Done<Codes> {
             Code::PR054,
             format!("the form has no coolant `{}`", kind.name()),
             format!(
-                "add `CoolantKind {} M88 M89` with the machine's codes, and print `M[coolantoff]` instead of M9, which \
-                 prints the off code of the kind (postforms/haas.pf has two kinds), or use flood coolant",
+                "add `CoolantKind {} M88 M89` with the machine's codes, and print `M[coolantoff]`, the off code of the active \
+                 kind, instead of M9 (postforms/haas.pf has two kinds), or use flood coolant",
                 kind.name()
             ),
         ),

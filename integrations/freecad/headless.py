@@ -4,15 +4,31 @@ The environment says what: POSTFORM_DOCUMENTS (a folder; those of its version ar
 """
 
 import os
+import re
+import shlex
 import shutil
+import sys
+import zipfile
 
 import FreeCAD
+
+sys.path.insert(0, os.path.dirname(os.environ["POSTFORM_POST"]))
+import machines  # noqa: E402, found beside the post
 
 def install():
     """Puts the post into the macro folder, as a user does."""
     folder = FreeCAD.getUserMacroDir(True)
     os.makedirs(folder, exist_ok=True)
     shutil.copy(os.environ["POSTFORM_POST"], folder)
+
+
+def opened(file):
+    """A document with its saved label. FreeCAD replaces the label by the name of the file when it opens a document."""
+    with zipfile.ZipFile(file) as archive:
+        text = archive.read("Document.xml").decode("utf-8")
+    document = FreeCAD.openDocument(file)
+    document.Label = re.search(r'<Property name="Label"[^>]*>\s*<String value="([^"]*)"', text).group(1)
+    return document
 
 
 def jobs(document):
@@ -46,6 +62,33 @@ def posted_by_1_1(job):
     return [program for _, program in PostProcessorFactory.get_post_processor(job, "postform").export()]
 
 
+def posted_by_machine(job):
+    """The programs of a machine: the class that later versions of FreeCAD load, with the objects of this FreeCAD."""
+    from Path.Post import Processor
+
+    plain = Processor.PostProcessor
+    Processor.PostProcessor = machines.later(plain)
+    try:
+        post = Processor.PostProcessorFactory.get_post_processor(job, "postform")
+    finally:
+        Processor.PostProcessor = plain
+    _, form, _, program = shlex.split(os.environ["POSTFORM_ARGUMENTS"])
+    return [program for _, program in machines.generated(post, machines.machine(form=form, postform=program))]
+
+
+def moved(document, posted):
+    """An operation with a Placement: FreeCAD gets the message as an error, and no program."""
+    operation = [item for item in jobs(document)[0].Operations.Group if hasattr(item, "Placement")][0]
+    kept, operation.Placement = operation.Placement, FreeCAD.Placement(FreeCAD.Vector(0, 5, 0), FreeCAD.Rotation())
+    try:
+        posted(jobs(document)[0])
+    except RuntimeError as error:
+        assert "has a Placement (X0 Y5 Z0)" in str(error), error
+    else:
+        raise AssertionError("a moved operation was posted")
+    operation.Placement = kept
+
+
 def refused(document, posted):
     """A tool without a speed: FreeCAD gets the message as an error, and no program."""
     for item in document.Objects:
@@ -66,16 +109,20 @@ def main():
     folder = os.environ["POSTFORM_DOCUMENTS"]
     for file in sorted(file for file in os.listdir(folder) if file.endswith("-{}.FCStd".format(version))):
         name = file[: -len(".FCStd")]
-        document = FreeCAD.openDocument(os.path.join(folder, file))
+        document = opened(os.path.join(folder, file))
         for job in jobs(document):
             for split in (False, True):
                 job.SplitOutput = split
-                for part, program in enumerate(posted(job)):
+                programs = posted(job)
+                if posted is posted_by_1_1:
+                    assert posted_by_machine(job) == programs
+                for part, program in enumerate(programs):
                     file = "{}.{}{}.nc".format(name, "split-" if split else "", part)
                     with open(os.path.join(os.environ["POSTFORM_OUT"], file), "w", newline="") as out:
                         out.write(program)
                     if split:
                         assert program.count(" M6") == 1 or job.OrderOutputBy != "Tool", program
+        moved(document, posted)
         refused(document, posted)
         FreeCAD.closeDocument(document.Name)
     print("posted inside FreeCAD", ".".join(FreeCAD.Version()[:3]))

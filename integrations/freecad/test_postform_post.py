@@ -4,6 +4,7 @@
 `integrations/freecad/run` does the same inside FreeCAD.
 """
 
+import importlib.util
 import io
 import json
 import os
@@ -38,6 +39,7 @@ class Console:
 
 freecad = types.ModuleType("FreeCAD")
 sys.modules["FreeCAD"] = freecad
+import machines  # noqa: E402, found beside this file
 import postform_post as post  # noqa: E402, found beside this file
 
 
@@ -254,6 +256,139 @@ class Posts(unittest.TestCase):
             program = post.export(objects, "-", '--form "{}" --postform {} --program 7'.format(FORM, warns))
         self.assertEqual(program, "G0 X1\n")
         self.assertEqual(freecad.Console.warnings, "careful: render - --from freecad --form {} --program 7\n".format(FORM))
+
+
+class Base:
+    """The post processor of FreeCAD 1.1, as far as a machine's post processor uses it."""
+
+    def __init__(self, job, tooltip, tooltipargs, units):
+        self._job, self._parts = job
+
+    def _buildPostList(self):
+        return [("allitems" if len(self._parts) == 1 else str(at), part) for at, part in enumerate(self._parts)]
+
+
+def with_machines():
+    """The script as FreeCAD after 1.1 loads it."""
+    names = ("Path", "Path.Post", "Path.Post.Processor")
+    for name in names:
+        sys.modules[name] = types.ModuleType(name)
+    sys.modules[names[-1]].PostProcessor = machines.later(Base)
+    try:
+        spec = importlib.util.spec_from_file_location("postform_post_later", os.path.join(HERE, "postform_post.py"))
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+    finally:
+        for name in names:
+            del sys.modules[name]
+    return module
+
+
+class Machines(unittest.TestCase):
+    def setUp(self):
+        freecad.Console, freecad.GuiUp = Console(), False
+        freecad.Version = lambda: ["26", "3", "0"]
+        self.post = with_machines()
+
+    def generated(self, name, chosen=None, **overrides):
+        """The programs of this document for a machine."""
+        chosen = chosen or machines.machine(form=FORM, postform=POSTFORM)
+        return machines.generated(self.post.Postform(document(name)), chosen, **overrides)
+
+    def refused(self, change, **overrides):
+        """The reason why there is no program for a changed machine."""
+        chosen = machines.machine(form=FORM, postform=POSTFORM)
+        change(chosen)
+        freecad.Version = lambda: ["26", "3", "0"]
+        with self.assertRaises(RuntimeError) as refused:
+            self.generated("holes-1.1", chosen, **overrides)
+        return str(refused.exception)
+
+    def test_without_machines_freecad_gets_no_class(self):
+        self.assertFalse(hasattr(post, "Postform"))
+
+    def test_a_machine_prints_what_the_saved_document_gives(self):
+        for name in ("holes-1.1", "dressups-1.1"):
+            with self.subTest(name):
+                ((part, program),) = self.generated(name)
+                self.assertEqual((part, program.encode()), ("allitems", rendered(name)))
+
+    def test_a_job_without_a_machine_prints_the_same(self):
+        job, parts = document("holes-1.1")
+        job.PostProcessorArgs = ARGUMENTS
+        processor = self.post.Postform((job, parts))
+        processor.apply_configuration_bundle({"job_author": "A. Smith"})
+        ((_, program),) = processor.export()
+        self.assertEqual(program.encode(), rendered("holes-1.1"))
+
+    def test_the_units_are_those_of_the_machine(self):
+        chosen = machines.machine(form=FORM, postform=POSTFORM)
+        chosen.output.units = machines.OutputUnits.IMPERIAL
+        self.assertIn("G20", self.generated("holes-1.1", chosen)[0][1])
+        self.assertIn("G21", self.generated("holes-1.1", chosen, arguments="--units mm")[0][1])
+
+    def test_the_properties_are_those_that_have_an_effect(self):
+        names = [each["name"] for each in self.post.Postform.get_full_property_schema()]
+        self.assertEqual(names, ["file_extension", "form", "arguments", "postform"])
+        processor = self.post.Postform(document("holes-1.1"))
+        machines.generated(processor, machines.machine(form=FORM, postform=POSTFORM, file_extension="ngc"))
+        self.assertEqual(processor.get_file_extension(), "ngc")
+
+    def test_the_author_of_the_dialog_is_printed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            template = os.path.join(folder, "author.pf")
+            with open(FORM, encoding="utf-8") as file:
+                text = file.read()
+            with open(template, "w", encoding="utf-8") as file:
+                file.write(text.replace("StartCode\n", "StartCode\n(BY [author])\n", 1))
+            ((_, program),) = self.generated("holes-1.1", machines.machine(form=template, postform=POSTFORM), job_author="A. Smith")
+        self.assertIn("(BY A. SMITH)", program)
+
+    def test_options_that_would_change_the_moves_are_refused(self):
+        for name in ("split_arcs", "translate_drill_cycles", "translate_rapid_moves", "early_tool_prep"):
+            why = self.refused(lambda chosen: setattr(chosen.processing, name, True))
+            self.assertIn("the machine's option `{}`: set it to False".format(name), why)
+        self.assertIn("set it to True", self.refused(lambda chosen: setattr(chosen.processing, "tool_change", False)))
+        self.assertIn("`toolhead_wait`: set it to 0", self.refused(lambda chosen: setattr(chosen.toolheads[0], "toolhead_wait", 2.0)))
+
+    def test_texts_of_the_machine_are_reported(self):
+        self.generated("holes-1.1", machines.machine(form=FORM, postform=POSTFORM, preamble="G17 G54", postamble=""))
+        self.assertIn("does not contain these texts of the machine: preamble.", freecad.Console.warnings)
+
+    def test_what_a_machine_must_give(self):
+        self.assertIn("the machine has no form", self.refused(lambda chosen: chosen.postprocessor_properties.pop("form")))
+        self.assertIn("take --form", self.refused(lambda chosen: None, arguments="--form other.pf"))
+        self.assertIn("there is no form gone.pf", self.refused(lambda chosen: None, form="gone.pf"))
+
+    def test_an_item_of_another_kind_is_refused(self):
+        job, parts = document("holes-1.1")
+        parts[0].append(Thing(Document=None, Label="Turn"))
+        processor = self.post.Postform((job, parts))
+        listed = processor._buildPostList()
+        listed[0][1][-1].item_type = "rotation"
+        processor._buildPostList = lambda: listed
+        with self.assertRaises(RuntimeError) as refused:
+            machines.generated(processor, machines.machine(form=FORM, postform=POSTFORM))
+        self.assertIn("postform can't print `Turn`, an item of the kind rotation", str(refused.exception))
+
+    def test_a_moved_operation_is_refused(self):
+        job, parts = document("holes-1.1")
+        operation = [item for item in job.Operations.Group if hasattr(item, "ToolController")][0]
+        operation.Placement = Thing(Base=Thing(x=0.0, y=0.0, z=4.0), Rotation=Thing(Q=(0.0, 0.0, 0.0, 1.0)))
+        with self.assertRaises(RuntimeError) as refused:
+            machines.generated(self.post.Postform((job, parts)), machines.machine(form=FORM, postform=POSTFORM))
+        self.assertIn("has a Placement (X0 Y0 Z4)", str(refused.exception))
+
+    def test_line_ends_are_those_of_freecad(self):
+        with tempfile.TemporaryDirectory() as folder:
+            template = os.path.join(folder, "crlf.pf")
+            with open(FORM, encoding="utf-8") as file:
+                text = file.read()
+            with open(template, "w", encoding="utf-8") as file:
+                file.write("LineEnd crlf\n" + text)
+            ((_, program),) = self.generated("holes-1.1", machines.machine(form=template, postform=POSTFORM))
+        self.assertNotIn("\r", program)
+        self.assertIn("LineEnd", freecad.Console.warnings)
 
 
 if __name__ == "__main__":

@@ -28,6 +28,26 @@ pub(super) enum Value {
     Class(String),
     /// A tool as it is stored in documents before 0.19.
     Tool(OldTool),
+    /// The position and the orientation of an object.
+    Placement(Placement),
+}
+
+/// The position and the orientation of an object. FreeCAD shows the path of an operation moved and turned by the placement
+/// of the operation. Of FreeCAD's own posts in 1.1, some print the path as it is shown (`grbl`), others do not (`linuxcnc`).
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Placement {
+    /// X, Y and Z in millimetres. NaN if the document has no number.
+    pub position: [f64; 3],
+    /// The rotation as a quaternion: x, y, z, w. NaN if the document has no number.
+    pub rotation: [f64; 4],
+}
+
+impl Placement {
+    /// Whether the object is neither moved nor turned.
+    pub fn is_identity(&self) -> bool {
+        let [x, y, z, _] = self.rotation;
+        self.position.iter().chain(&[x, y, z]).all(|number| number.abs() < 1e-9)
+    }
 }
 
 /// A tool that is stored in a property, as in documents before 0.19.
@@ -229,6 +249,15 @@ impl Cursor {
             ("Link", Some(Value::Links(links))) => links.push(value("value")?),
             ("Path", None) => self.value = Some(Value::Path(value("file")?)),
             ("Python", None) => self.value = Some(Value::Class(value("class")?)),
+            ("PropertyPlacement", None) => {
+                let mut numbers = [f64::NAN; 7];
+                for (held, name) in numbers.iter_mut().zip(["Px", "Py", "Pz", "Q0", "Q1", "Q2", "Q3"]) {
+                    *held = number(&value(name)?).unwrap_or(f64::NAN);
+                }
+                let [px, py, pz, q0, q1, q2, q3] = numbers;
+                let placement = Placement { position: [px, py, pz], rotation: [q0, q1, q2, q3] };
+                self.value = Some(Value::Placement(placement));
+            }
             ("Tool", None) => {
                 let (diameter, corner) = (number(&value("diameter")?), number(&value("corner")?));
                 self.value = Some(Value::Tool(OldTool { name: value("name")?, diameter, corner }));

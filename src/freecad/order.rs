@@ -201,6 +201,18 @@ fn bare(object: &Object) -> Option<Kind> {
 }
 
 fn operation(document: &Document, name: &str, object: &Object, label: &str) -> Result<Kind, Box<Diag>> {
+    if let Some(Value::Placement(placement)) = object.get("Placement")
+        && !placement.is_identity()
+    {
+        let [x, y, z] = placement.position;
+        let help = "set position and angle of the operation's Placement to 0 in its Data tab, and move the model \
+                    instead; for another direction of the tool, make a job of its own";
+        return wrong(
+            Code::PD003,
+            format!("the operation {label} has a Placement (X{x} Y{y} Z{z}) that moves or turns its path"),
+            help,
+        );
+    }
     let controller = match document.inherited(name, "ToolController") {
         Some(Value::Link(link)) if !link.is_empty() => Controller::of(document, link)?,
         _ => {

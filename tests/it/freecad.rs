@@ -496,6 +496,30 @@ fn what_a_program_needs_must_be_there() {
         ),
         ("Op", "Active", "<Bool value=\"false\"/>", "PD002 the job Setup <1> has no active operation at "),
         ("Op", "ToolController", "<Link value=\"\"/>", "PD004 the operation Holes has no tool controller at "),
+        (
+            "Op",
+            "Placement",
+            "<PropertyPlacement Px=\"0\" Py=\"12.5\" Pz=\"0\" Q0=\"0\" Q1=\"0\" Q2=\"0\" Q3=\"1\"/>",
+            "PD003 the operation Holes has a Placement (X0 Y12.5 Z0) that moves or turns its path at ",
+        ),
+        (
+            "Op",
+            "Placement",
+            "<PropertyPlacement Px=\"0\" Py=\"0\" Pz=\"0\" Q0=\"0\" Q1=\"0\" Q2=\"0.5\" Q3=\"0.8\"/>",
+            "PD003 the operation Holes has a Placement (X0 Y0 Z0) that moves or turns its path at ",
+        ),
+        (
+            "Op",
+            "Placement",
+            "<PropertyPlacement Px=\"nan\"/>",
+            "PD003 the operation Holes has a Placement (XNaN YNaN ZNaN) that moves or turns its path at ",
+        ),
+        (
+            "Op",
+            "Placement",
+            "<PropertyPlacement Px=\"0\" Py=\"-0\" Pz=\"0\" Q0=\"0\" Q1=\"0\" Q2=\"0\" Q3=\"-1\"/>",
+            "read",
+        ),
         ("Tool", "SpindleSpeed", "<Float value=\"0\"/>", "PD004 the tool controller TC: 5mm has no spindle speed at "),
         ("Job", "Proxy", "<Python class=\"Other\"/>", "PD002 the document has no CAM job at "),
     ] {

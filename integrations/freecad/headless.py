@@ -78,7 +78,8 @@ def posted_by_machine(job):
 
 def moved(document, posted):
     """An operation with a Placement: FreeCAD gets the message as an error, and no program."""
-    operation = [item for item in jobs(document)[0].Operations.Group if hasattr(item, "Placement")][0]
+    group = jobs(document)[0].Operations.Group
+    operation = [item for item in group if getattr(item, "Active", True) and type(item.Proxy).__name__ not in ("Comment", "Stop")][0]
     kept, operation.Placement = operation.Placement, FreeCAD.Placement(FreeCAD.Vector(0, 5, 0), FreeCAD.Rotation())
     try:
         posted(jobs(document)[0])

@@ -19,11 +19,13 @@ fn cell(text: &str) -> String {
 pub fn commands() -> String {
     let mut text = head(
         "Commands of forms",
-        "Commands come before the first sequence. `postform explain NAME` shows a command with an example. The last column \
-         gives the source of the command: the manual, an example of the manual, or ours (no public source defines it).\n\n\
-         Lengths in commands are in the units of the form (`Units`). With `Units both`, they are in inches, and postform \
-         converts them to the units of the program: `CycleClear 3` is 3 inches, which is 76.2 mm. If the form does not \
-         contain `CycleClear`, `CycleBack` or `CycleJog`, the default in the units of the job applies.",
+        "Commands come before the first sequence. `postform explain NAME` shows a command with an example. The last \
+         column gives the source of the definition: the manual, an example of the manual, or ours. \"Ours\" means \
+         that no public source defines the command, so we decided.\n\n\
+         Lengths in commands are in the units of the form (`Units`). With `Units both`, these lengths are in \
+         inches, and postform converts them to the units of the program. For example, `CycleClear 3` is then 3 \
+         inches, which is 76.2 mm. If the form does not contain `CycleClear`, `CycleBack` or `CycleJog`, postform \
+         uses the default in the units of the job.",
     );
     text += "| command | takes | default | does | source |\n| --- | --- | --- | --- | --- |\n";
     for row in COMMANDS {

@@ -16,7 +16,7 @@ macro_rules! command_rows {
             Machine "Machine" (Choice(&["Mill", "Lathe", "EDM", "Torch", "Laser"])) once (of("Mill")) Ours {=> machine_word}
                 "the type of machine; it decides which sequences and variables the form may use";
             Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
-                "units of the lengths in the form; a job in other units needs a printed [unitmode]";
+                "units of the lengths in the form; for a job in other units, the form must print [unitmode]";
             Control "Control" (Words(1, 9, "the name of a control, such as `haas`, or a control file, such as `my-vf2.toml`"))
                 once (of("").told("similar to fanuc")) Ours {control: Option<&'static Control>}
                 "the control for which the programs are checked";
@@ -53,7 +53,7 @@ macro_rules! command_rows {
                 "values of [side]: left, right, off";
             CDCCode "CDCCode" (Letters(1, 1))
                 once (of("D")) Ours {cdc_code: u8} if (Unless(&[S::InFeed], "InFeed prints the compensation"))
-                "offset letter of generated compensation moves";
+                "letter of the offset register, in generated moves that begin cutter compensation";
             Dwell "Dwell" (Words(2, 3, "code, letter, unit, as `G4 P s` or `G4 P ms`"))
                 once (of("G4 P s")) Ours {dwell: DwellWord}
                 "generated dwell block, and the unit of [dwell]: seconds or milliseconds";
@@ -62,9 +62,9 @@ macro_rules! command_rows {
             StopCode "StopCode" (Codes('M', 2, 2)) once (of("0 1")) Ours {stop_code: [f64; 2]}
                 "values of [stop]: program stop, optional stop";
             LComp "LComp" (Number) once (of("0")) Ours {lcomp: f64} if (Printed(V::Lcomp))
-                "[lcomp] of a tool without its own register is the tool number plus this number";
+                "if the job gives no length register for a tool, [lcomp] is the tool number plus this number";
             DComp "DComp" (Number) once (of("0")) Ours {dcomp: f64}
-                "[dcomp] of a tool without its own register is the tool number plus this number";
+                "if the job gives no diameter register for a tool, [dcomp] is the tool number plus this number";
             Work "Work" (Codes('G', 1, 1)) once (of("54")) Ours {work: f64}
                 "[work] of fixture 1; the next fixtures have the next numbers";
             WorkDefault "WorkDefault" (Codes('G', 1, 1)) once (of("54")) Ours {work_default: f64}
@@ -115,15 +115,15 @@ macro_rules! command_rows {
             ByQuadrants "ByQuadrants?" (Switch) once (of("N")) Doc {by_quadrants: bool}
                 "with `Y`, arcs are split at the quadrant lines";
             ArcPlane "ArcPlane" (Motion(1, 3)) once (of("17 18 19")) Ours {planes: Vec<Code>}
-                "plane words; an arc in another plane is linearised";
+                "plane words; an arc in another plane is printed as lines";
             Helical "Helical?" (Switch) once (of("Y")) Ours {helical: bool}
-                "with `N`, arcs that also move along the tool axis are linearised";
+                "with `N`, arcs that also move along the tool axis are printed as lines";
             MinRad "MinRad" (Length) once (of("0.0005").mm("0.01")) Ours {min_radius: f64}
-                "arcs with a smaller radius are linearised";
+                "arcs with a smaller radius are printed as lines";
             MaxRad "MaxRad" (Length) once (of("999").mm("25000")) Ours {max_radius: f64}
-                "arcs with a larger radius are linearised";
+                "arcs with a larger radius are printed as lines";
             Tolerance "Tolerance" (LengthAboveZero) once (of("0.0005").mm("0.01")) Ours {tolerance: f64}
-                "largest distance of lines from a linearised arc";
+                "if an arc is printed as lines, the largest distance between the lines and the arc";
             ArcWithLine "ArcWithLine?" (Switch) once (of("Y")) Ours {arc_with_line: bool}
                 "with `Y`, an arc after a line leaves out its motion code if the code is still active";
             ArcWithSame "ArcWithSame?" (Switch) once (of("Y")) Ours {arc_with_same: bool}
@@ -133,7 +133,7 @@ macro_rules! command_rows {
                 "direction word at the end of an arc block";
             SecondCircle "2ndCircleCode" (Words(1, 9, "one word, as `M99`"))
                 once (of("")) Doc {second_circle: Option<String>} if (Arcs)
-                "word that begins the second block of an arc, which contains the centre";
+                "splits an arc into two blocks; this word begins the second block, which contains the centre";
             // leaving out unchanged words
             Modality "Modality?" (Switch) once (of("Y")) Ours {modality: bool}
                 "with `Y`, words that change nothing are left out";
@@ -192,7 +192,7 @@ macro_rules! command_rows {
                 "a prompted variable";
             Property "Property" (Words(3, 60, "a name, a kind, a default and a question"))
                 many (of("")) Ours {properties: Vec<Property>} eg "through choice(off,on,high) off Coolant through the spindle"
-                "a value with a name of its own in the form; postform.toml, the job or `--set` can give it";
+                "a value with a name that the form chooses; postform.toml, the job or `--set` can give this value";
             Call "Call" (Text) many (of("")) Ours {} eg "common.inc"
                 "includes another form of the same folder";
             CallMe "CallMe" (Text) many (of("")) Ours {} eg "common.inc"
@@ -227,17 +227,17 @@ macro_rules! command_rows {
             ThreadPasses "ThreadPasses" (Choice(&["x", "full"])) once (of("x")) Ours {=> thread_passes} if (Threads)
                 "with `x`, later passes print only X; with `full`, later passes print approach, cut, clear and return";
             CycleClear "CycleClear" (Length) once (of("").by_units("0.1", "3")) Ours {cycle_clear: Option<f64>}
-                "clearance of cycles without a clearance in the job";
+                "clearance of a cycle, if the job gives no clearance";
             CycleStep "CycleStep" (Length) once (of("")) Ours {cycle_step: Option<f64>} eg "0.1"
-                "peck of cycles without a peck in the job";
+                "peck of a cycle, if the job gives no peck";
             CycleMinStep "CycleMinStep" (Length) once (of("0")) Ours {cycle_min_step: f64}
-                "least peck";
+                "smallest peck";
             CycleBack "CycleBack" (Words(2, 2, "`deep`, `chipbreak` or `thru`, then a length"))
                 many (of("").by_units("deep 0.05, chipbreak 0.05, thru 0.05", "deep 1, chipbreak 1, thru 1"))
                 Ours {=> cycle_back} eg "deep 0.05"
-                "secondary clearance of cycles without a secondary clearance in the job";
+                "secondary clearance of a cycle, if the job gives no secondary clearance";
             CycleDwell "CycleDwell" (Length) once (of("0.5")) Ours {cycle_dwell: f64}
-                "dwell, in seconds, of facing cycles without a dwell in the job";
+                "dwell of a facing cycle in seconds, if the job gives no dwell";
             CycleDwellAt "CycleDwellAt" (Words(1, 2, "`steps`, `retracts` or both"))
                 once (of("")) Ours {=> cycle_dwell_at} eg "steps"
                 "points at which a peck cycle dwells, in addition to the bottom";

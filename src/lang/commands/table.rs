@@ -58,7 +58,7 @@ macro_rules! command_rows {
                 once (of("G4 P s")) Ours {dwell: DwellWord}
                 "generated dwell block, and the unit of [dwell]: seconds or milliseconds";
             Orient "Orient" (Words(2, 2, "code and letter, as `M19 R`")) once (of("M19 R")) Ours {orient: (Code, u8)}
-                "words of a generated spindle orientation";
+                "words of a generated block that orients the spindle";
             StopCode "StopCode" (Codes('M', 2, 2)) once (of("0 1")) Ours {stop_code: [f64; 2]}
                 "values of [stop]: program stop, optional stop";
             LComp "LComp" (Number) once (of("0")) Ours {lcomp: f64} if (Printed(V::Lcomp))
@@ -156,7 +156,7 @@ macro_rules! command_rows {
             SpacesSwitch "Spaces?" (Switch) once (of("Y")) Ours {blanks: bool}
                 "with `Y`, postform prints a space between words";
             Spaces "Spaces" (Whole(1, 15)) once (of("")) Ours {columns: Vec<usize>} eg "8"
-                "fixed columns: one width for all words, or the column of each word";
+                "words begin at fixed columns; the numbers are one width for all words, or the column of each word";
             LeadingZeros "Leading0s?" (Switch) once (of("N")) Ours {leading_zeros: bool}
                 "with `Y`, postform prints 0.5 instead of .5";
             Eob "EOB" (Text) once (of("")) Ours {eob: String}
@@ -210,14 +210,14 @@ macro_rules! command_rows {
             RevTurret2 "RevTurret2?" (Switch) once (of("N")) Ours {reverse_turret_2: bool}
                 "with `Y`, X has the opposite sign while [turret] is 2";
             Tools "Tools" (Text) many (of("")) Ours {}
-                "a command of the original desktop product, without effect";
+                "a command of the original desktop product; it has no effect in postform";
             Drive "Drive" (Text) many (of("")) Ours {}
-                "a command of the original desktop product, without effect";
+                "a command of the original desktop product; it has no effect in postform";
             WindowSize "WindowSize" (Text) many (of("")) Ours {}
-                "a command of the original desktop product, without effect";
+                "a command of the original desktop product; it has no effect in postform";
             Limits "Limits" (Words(3, 3, "axis letter, least and greatest position, as `X -20 20`"))
                 many (of("")) Ours {limits: Vec<TravelLimit>}
-                "travel of an axis; the travel of a rotary axis controls Unwind";
+                "travel of an axis; if a rotary axis would leave its travel, the sequence Unwind is printed";
             // threads and cycles
             Thread "Thread" (Motion(1, 1))
                 once (of(""))

@@ -90,6 +90,21 @@ def moved(document, posted):
     operation.Placement = kept
 
 
+def turned(document, posted):
+    """A tool of FreeCAD 1.1 that turns in another direction than its controller: an error, and no program."""
+    controller = jobs(document)[0].Operations.Group[0].ToolController
+    controller.Tool.SpindleDirection = "Reverse"
+    document.recompute()
+    try:
+        posted(jobs(document)[0])
+    except RuntimeError as error:
+        assert "has the spindle direction Forward" in str(error), error
+    else:
+        raise AssertionError("a tool with another direction was posted")
+    controller.Tool.SpindleDirection = "Forward"
+    document.recompute()
+
+
 def refused(document, posted):
     """A tool without a speed: FreeCAD gets the message as an error, and no program."""
     for item in document.Objects:
@@ -124,6 +139,8 @@ def main():
                     if split:
                         assert program.count(" M6") == 1 or job.OrderOutputBy != "Tool", program
         moved(document, posted)
+        if name == "holes-1.1":
+            turned(document, posted)
         refused(document, posted)
         FreeCAD.closeDocument(document.Name)
     print("posted inside FreeCAD", ".".join(FreeCAD.Version()[:3]))

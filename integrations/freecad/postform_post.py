@@ -378,6 +378,10 @@ def packed(job, operations, fixtures, author=None):
             objects[name].append(prop("ToolController", link(controller.Name)))
             tool, tool_name = controller.Tool, "tool:" + controller.Name
             objects[controller.Name] = properties(controller, CONTROLLER) + [prop("Tool", link(tool_name))]
+            change = getattr(controller, "Path", None)
+            if change is not None:
+                paths[controller.Name + ".nc"] = change.toGCode()
+                objects[controller.Name].append(prop("Path", "<Path file={}/>".format(quoteattr(controller.Name + ".nc"))))
             label = getattr(tool, "Label", None) or getattr(tool, "Name", None)  # tools before 0.19 have a name
             objects[tool_name] = [prop("Label", value(label))] + properties(tool, TOOL)
     version = ".".join(FreeCAD.Version()[:2]) + "R"

@@ -45,6 +45,9 @@ pub fn read_freecad(
     let document = Document::parse(&archive.whole("Document.xml", archive::LARGEST_DOCUMENT)?)?;
     let job = choose::job(&document, options.job.as_deref(), report)?;
     let steps = order::steps(&document, &job, report)?;
+    for controller in order::controllers(&steps) {
+        controller.check_saved(&mut archive)?;
+    }
     let said = |property: &str| document.own.text(property).filter(|text| !text.is_empty()).map(str::to_owned);
     let mut hold = Hold::new(sink);
     let start = Start {

@@ -59,6 +59,18 @@ pub(super) fn tools(steps: &[Step]) -> Vec<f64> {
     tools
 }
 
+/// The tool controllers of the operations, each once, in the order of their use.
+pub(super) fn controllers(steps: &[Step]) -> impl Iterator<Item = &Controller> {
+    let mut labels = std::collections::HashSet::new();
+    steps.iter().filter_map(move |step| match &step.kind {
+        Kind::Operation(operation, _) => {
+            let controller = &operation.controller;
+            labels.insert((controller.label.as_str(), controller.tool.number.to_bits())).then_some(controller)
+        }
+        _ => None,
+    })
+}
+
 /// All steps of a job, in the order in which FreeCAD posts them.
 pub(super) fn steps(document: &Document, job: &Job<'_>, report: &mut Report) -> Result<Vec<Step>, Box<Diag>> {
     let operations = operations(document, job, report)?;

@@ -1,9 +1,13 @@
 //! Tool controllers: a tool with its speed and feeds.
 
+use std::io::{Read, Seek};
+
+use super::archive::Archive;
+use super::command::{self, Command};
 use super::document::{Document, Object, Value};
 use super::wrong;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{Given, SpindleTurn, Tool};
+use crate::toolpath::{Given, ReadError, SpindleTurn, Tool};
 
 /// The largest change of a feed when a document is saved: feeds have six decimals in paths and sixteen in tool
 /// controllers.
@@ -22,6 +26,8 @@ pub(super) struct Controller {
     pub turn: SpindleTurn,
     /// Feeds for moves across and down, in millimetres per second.
     feeds: [f64; 2],
+    /// The file in the archive with the tool change of the controller.
+    path: Option<String>,
 }
 
 impl Controller {
@@ -54,7 +60,51 @@ impl Controller {
             return wrong(Code::PD004, format!("the tool controller {label} has no spindle speed"), help);
         }
         let feeds = ["HorizFeed", "VertFeed"].map(|name| object.number(name).unwrap_or(0.0));
-        Ok(Controller { tool: tool(document, object, number), label, speed, turn, feeds })
+        let path = match object.get("Path") {
+            Some(Value::Path(file)) if !file.is_empty() => Some(file.clone()),
+            _ => None,
+        };
+        Ok(Controller { tool: tool(document, object, number), label, speed, turn, feeds, path })
+    }
+
+    /// Compares direction and speed with the tool change that FreeCAD saved, and prints.
+    ///
+    /// FreeCAD 0.20 makes the tool change with the direction of the controller, FreeCAD 1.1 with the direction of the
+    /// tool, and the two directions can differ. A document without this tool change is not compared.
+    pub fn check_saved<R: Read + Seek>(&self, archive: &mut Archive<R>) -> Result<(), ReadError> {
+        let (mut changes, mut turn, mut speed) = (false, SpindleTurn::Off, 0.0);
+        let path = archive.member(&self.path)?;
+        command::each(self.path.as_deref().unwrap_or_default(), path, |_, command| {
+            if let Command::Code(code, words) = command {
+                match code.to_string().as_str() {
+                    "M6" => changes = true,
+                    "M3" => (turn, speed) = (SpindleTurn::Cw, words.get(b'S').unwrap_or(0.0)),
+                    "M4" => (turn, speed) = (SpindleTurn::Ccw, words.get(b'S').unwrap_or(0.0)),
+                    _ => {}
+                }
+            }
+            Ok(())
+        })?;
+        let same_speed = turn == SpindleTurn::Off || (speed - self.speed).abs() <= SAVED;
+        if !changes || turn == self.turn && same_speed {
+            return Ok(());
+        }
+        let text = |turn, speed| match turn {
+            SpindleTurn::Cw => format!("Forward at {speed}"),
+            SpindleTurn::Ccw => format!("Reverse at {speed}"),
+            SpindleTurn::Off => "None".to_owned(),
+        };
+        wrong(
+            Code::PD004,
+            format!(
+                "the tool controller {} has the spindle direction {}, but its tool change {}",
+                self.label,
+                text(self.turn, self.speed),
+                text(turn, speed)
+            ),
+            "set SpindleDir of the tool controller and SpindleDirection of its tool to the same direction, recompute, and \
+             save the document",
+        )
     }
 
     /// Converts a feed of a path to millimetres per minute. If the path's feed is a rounded feed of the tool

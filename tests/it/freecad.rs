@@ -535,6 +535,36 @@ fn what_a_program_needs_must_be_there() {
     assert_eq!(refused(&two, &Options { job: Some("Job001".into()) }), "read");
 }
 
+/// FreeCAD saves the tool change of each controller. Its direction and its speed must be those of the controller.
+#[test]
+fn the_saved_tool_change_agrees_with_its_controller() {
+    for (change, said) in [
+        ("(TC)\nM6 T3.000000\nM3 S1000.000000\n", "read"),
+        ("(TC)\n", "read"),
+        (
+            "M6 T3.000000\nM4 S1000.000000\n",
+            "PD004 the tool controller TC: 5mm has the spindle direction Forward at 1000, but its tool change Reverse at \
+             1000 at ",
+        ),
+        (
+            "M6 T3.000000\nM3 S900.000000\n",
+            "PD004 the tool controller TC: 5mm has the spindle direction Forward at 1000, but its tool change Forward at \
+             900 at ",
+        ),
+        (
+            "M6 T3.000000\n",
+            "PD004 the tool controller TC: 5mm has the spindle direction Forward at 1000, but its tool change None at ",
+        ),
+    ] {
+        let mut tool = TOOL.to_vec();
+        tool.push(("Path", "<Path file=\"Tool.nc\"/>"));
+        let text = document(&[("Job", JOB), ("Operations", OPERATIONS), ("Op", OPERATION), ("Tool", &tool)]);
+        let path = b"G0 X1 Y1 Z5\nG1 Z-1 F2\n";
+        let bytes = archive(&[("Document.xml", text.as_bytes()), ("Op.nc", path), ("Tool.nc", change.as_bytes())]);
+        assert_eq!(refused(&bytes, &Options::default()), said, "{change}");
+    }
+}
+
 #[test]
 fn no_word_of_a_path_is_lost() {
     for (path, said) in [

@@ -40,7 +40,7 @@ pub fn tolerances() -> Vec<[String; 2]> {
     let [chord, chord_mm] = CHORDS;
     vec![
         row("position", format!("{inch} inch or {mm} mm (`--tolerance`)")),
-        row("straight cut that is made of several moves: distance of the moves from its line", "as positions".into()),
+        row("distance of several moves from the straight cut that they replace", "as for positions".into()),
         row("arc made of lines", format!("{chord} inch or {chord_mm} mm, or the form's `Tolerance`, from the arc")),
         row("arc made of arcs", "5 times the tolerance of positions, because centres are rounded too".into()),
         row("angle of a rotary axis", format!("{ANGLE} degrees")),

@@ -34,25 +34,25 @@ macro_rules! allowed {
 
 // columns: name, noun, difference, the only file that counts it, description
 allowed! {
-    pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts than in the job, and holes that the job drills in one stroke, but the program in pecks.";
+    pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts than in the job. Also holes that the job drills in one stroke, but the program drills in pecks.";
     retracts "hole" "with full retracts where the job only breaks the chips" "holes.rs" "Holes in which the tool retracts out of the hole, as by G83, if the pecks of the job only break the chips, as by G73.";
     taps    "tapping cut" "made rigidly where the job has a floating holder" "modal.rs" "Cuts of a tap whose feed follows the spindle, if the job has a tap with a floating holder.";
     ways    "path" "between cuts with the axes in another order or at a greater height" "rapids.rs" "Paths between cuts that move the axes in another order than the job, or at a greater height.";
-    tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions, at the greatest height of the job's path or higher.";
-    idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths to other positions, but nowhere lower than the job's path, if the tool makes no cut or the work offset has no cut.";
+    tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions. These paths are at the greatest height of the job's path or higher.";
+    idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths of a tool without cuts, or in a work offset without cuts, that go to other positions. These paths are nowhere lower than the job's path.";
     arcs    "arc" "made of parts" "arcs.rs" "Arcs made of several lines or arcs.";
     parts   "straight cut" "made of parts" "lines.rs" "Straight cuts made of several moves.";
-    short   "cut" "left out or added with a length near or below the tolerance" "align.rs" "Cuts of the job that are missing in the program, if they are shorter than the tolerance; cuts that only the program has, if they are shorter than twice the tolerance.";
-    outs    "hole" "with a higher retract at feed" "lines.rs" "Taps and reamed holes whose retract at feed ends only at the return plane.";
-    entries "cut" "interrupted and continued" "align.rs" "Cuts that are interrupted and continued at the same position.";
+    short   "cut" "left out or added with a length near or below the tolerance" "align.rs" "Cuts of the job that are shorter than the tolerance and are missing in the program. Also cuts that are shorter than twice the tolerance and that only the program has.";
+    outs    "hole" "with a higher retract at feed" "lines.rs" "Taps and reamed holes in which the retract at feed ends at the return plane, higher than in the job.";
+    entries "cut" "interrupted and continued" "align.rs" "Cuts that the program interrupts and continues at the same position.";
     slow    "rapid" "made at feed to turn compensation on or off" "comparer.rs" "Moves at feed that turn compensation on or off, where the job has a rapid.";
     dwells  "dwell" "added by the form" "pauses.rs" "Dwells that the job does not have, if they are outside cuts and holes. In a cut, a dwell of up to 30 s is allowed after the spindle starts, or with a torch or laser on.";
     stops   "stop" "added by the form" "pauses.rs" "Stops that the job does not have, outside cuts and holes.";
     pauses  "pause" "at another position between the same cuts" "pauses.rs" "Stops and dwells of the job that the program makes at another position between the same cuts. The position of a stop is not lower than in the job.";
     feeds   "feed" "set by the form" "modal.rs" "Cuts at a feed that the form contains, or computes from the job's feed. The feed is 0.2 to 2 times the job's feed.";
-    speeds  "speed" "set by the form" "modal.rs" "Cuts at a speed that the form contains, or computes from the job's speed, as `S[min(speed,800)]`. The speed is 0.2 to 2 times the job's speed. This is not allowed for taps.";
+    speeds  "speed" "set by the form" "modal.rs" "Cuts at a speed that the form contains, or computes from the job's speed, as `S[min(speed,800)]`. The speed is 0.2 to 2 times the job's speed. For taps, such a speed is not allowed.";
     threads "thread" "with other passes" "threads.rs" "Threads that are cut to the job's depth, but in other passes than in the job. No pass is deeper than 1.5 times the deepest pass of the job.";
-    custom  "hole" "of a custom cycle" "comparer.rs" "Holes of custom cycles, if the form's own moves go along the axis of the hole to the job's depth.";
+    custom  "hole" "of a custom cycle" "comparer.rs" "Holes of custom cycles. The form's moves go along the axis of the hole to the job's depth.";
 }
 
 /// The result of a proof.

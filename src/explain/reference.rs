@@ -46,8 +46,8 @@ pub fn commands() -> String {
 pub fn variables() -> String {
     let mut text = head(
         "Variables of forms",
-        "A variable is written alone or with a letter, such as `X[h]`. `postform explain NAME` shows a variable with an \
-         example.",
+        "In a form, a variable stands alone, such as `[toold]`, or after a letter, such as `X[h]`. `postform explain NAME` \
+         shows a variable with an example.",
     );
     let mut group = "";
     for row in VARIABLES {
@@ -61,8 +61,8 @@ pub fn variables() -> String {
         let (counts, by) = (unit(row.unit), origin(row.origin));
         text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
     }
-    text += "\n## Texts\n\nTexts are for comments and names. Texts are an addition of postform: the manual does not \
-             describe texts. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
+    text += "\n## Texts\n\nText variables are for comments and names. Only postform has text variables: the manual does \
+             not describe them. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
     text += "| variable | is | set by |\n| --- | --- | --- |\n";
     for row in TEXTS {
         text += &format!("| `[{}]` | {} | {} |\n", row.name, cell(row.meaning), row.from);

@@ -99,7 +99,7 @@ pub fn origin(origin: Origin) -> &'static str {
     match origin {
         Origin::Computed => "postform, from the toolpath",
         Origin::Job => "the job's `set`, --set or a prompt",
-        Origin::Asked => "postform, from the job; else --set or a prompt",
+        Origin::Asked => "postform, from the job; without a value in the job, --set or a prompt",
     }
 }
 

@@ -35,8 +35,8 @@ macro_rules! allowed {
 // columns: name, noun, difference, the only file that counts it, description
 allowed! {
     pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts than in the job. Also holes that the job drills in one stroke, but the program drills in pecks.";
-    retracts "hole" "with full retracts where the job only breaks the chips" "holes.rs" "Holes in which the tool retracts out of the hole, as by G83, if the pecks of the job only break the chips, as by G73.";
-    taps    "tapping cut" "made rigidly where the job has a floating holder" "modal.rs" "Cuts of a tap whose feed follows the spindle, if the job has a tap with a floating holder.";
+    retracts "hole" "with full retracts where the job only breaks the chips" "holes.rs" "Holes in which the tool retracts out of the hole (as with G83), but the pecks of the job only break the chips (as with G73).";
+    taps    "tapping cut" "made rigidly where the job has a floating holder" "modal.rs" "Cuts of a rigid tap (the feed follows the spindle), where the job has a tap with a floating holder.";
     ways    "path" "between cuts with the axes in another order or at a greater height" "rapids.rs" "Paths between cuts that move the axes in another order than the job, or at a greater height.";
     tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions. These paths are at the greatest height of the job's path or higher.";
     idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths of a tool without cuts, or in a work offset without cuts, that go to other positions. These paths are nowhere lower than the job's path.";

@@ -61,8 +61,8 @@ pub fn variables() -> String {
         let (counts, by) = (unit(row.unit), origin(row.origin));
         text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
     }
-    text += "\n## Texts\n\nText variables are for comments and names. Only postform has text variables: the manual does \
-             not describe them. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
+    text += "\n## Texts\n\nText variables are for comments and names. Only postform has text variables: the manual \
+             does not describe them. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
     text += "| variable | is | set by |\n| --- | --- | --- |\n";
     for row in TEXTS {
         text += &format!("| `[{}]` | {} | {} |\n", row.name, cell(row.meaning), row.from);

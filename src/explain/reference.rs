@@ -21,7 +21,7 @@ pub fn commands() -> String {
         "Commands of forms",
         "Commands come before the first sequence. `postform explain NAME` shows a command with an example. The last \
          column gives the source of the definition: the manual, an example of the manual, or ours. \"Ours\" means \
-         that no public source defines the command, so we decided.\n\n\
+         that no public source defines the command, so postform defines it.\n\n\
          Lengths in commands are in the units of the form (`Units`). With `Units both`, these lengths are in \
          inches, and postform converts them to the units of the program. For example, `CycleClear 3` is then 3 \
          inches, which is 76.2 mm. If the form does not contain `CycleClear`, `CycleBack` or `CycleJog`, postform \

@@ -28,11 +28,11 @@ macro_rules! texts {
 
 #[rustfmt::skip]
 texts! {
-    Progname "progname" "the program's name"                     "`name` of the job; PARTNO of a CL file, the comment after the O number of an NC program, or the label of a FreeCAD job"
-    Partname "partname" "the name of the part"                   "`part` of the job"
+    Progname "progname" "the program's name"                     "`name` of the job; PARTNO of a CL file (without PARTNO, a PPRINT before the first operation), the comment after the O number of an NC program, or the label of a FreeCAD job"
+    Partname "partname" "the name of the part"                   "`part` of the job, or the label of a FreeCAD document"
     Material "material" "the material of the part"               "`material` of the job"
     Customer "customer" "the customer of the part"                      "`customer` of the job"
-    Author   "author"   "the author of the job"                       "`author` of the job; not PPRINT of a CL file"
+    Author   "author"   "the author of the job"                       "`author` of the job; `CreatedBy` of a FreeCAD document. A CL file gives no author"
     Toolname "toolname" "the tool's name"                        "`name` of the tool"
     Tooltext "tooltext" "the job's comment on the tool"          "`comment` of the tool"
     Opname   "opname"   "the operation's name"                   "`name` of the operation"

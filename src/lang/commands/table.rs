@@ -69,9 +69,9 @@ macro_rules! command_rows {
                 "[work] of fixture 1; the next fixtures have the next numbers";
             WorkDefault "WorkDefault" (Codes('G', 1, 1)) once (of("54")) Ours {work_default: f64}
                 "[work] of a job without a work offset";
-            MoreWork "MoreWork" (Words(2, 4, "the first fixture of the range, the words of that fixture, and optionally a last number, which ends the range, as `7 G54.1 P1` or `7 G54.1 P1 48`"))
+            MoreWork "MoreWork" (Words(2, 4, "the first fixture of the range, the words of that fixture, and optionally a number that ends the range, as `7 G54.1 P1` or `7 G54.1 P1 48`"))
                 many (of("")) Ours {more_work: Vec<MoreWork>} if (Printed(V::Work)) eg "7 G54.1 P1"
-                "words that `G[work]` prints for the first fixture of the range; the last number increases by 1 for each further fixture";
+                "words that `G[work]` prints for the first fixture of the range; the last number of these words increases by 1 for each further fixture";
             IncAbs "Inc/Abs" (Codes('G', 2, 2)) once (of("91 90")) Ours {inc_abs: [f64; 2]}
                 "values of [incmode]: incremental, absolute";
             InchMm "Inch/MM" (Codes('G', 2, 2)) once (of("20 21")) Ours {inch_mm: [f64; 2]} if (Printed(V::Unitmode))

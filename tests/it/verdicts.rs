@@ -59,7 +59,7 @@ fn every_post_that_ships_has_a_verdict_on_every_sample() {
         A test prints the job of each sample ([samples/](../samples)) with each shipped post ([postforms/](../postforms)). \
         The table shows the verdicts: `=` identical, `≈` equivalent, `?` not proven, `≠` different. The number after \
         a verdict refers to a reason below the table. `–` means that the post can't print the job. Such a job is for \
-        another machine, or needs a sequence that the post does not have. \
+        a different type of machine, or needs a sequence that the post does not have. \
         [What the verdicts mean](verify.md)\n\n| job |"
         .to_owned();
     posts.iter().for_each(|(name, _)| page += &format!(" {name} |"));

@@ -74,7 +74,7 @@ pub fn variables() -> String {
 pub fn sequences() -> String {
     let mut text = head(
         "Sequences",
-        "The table lists all sequences. For each sequence, it gives the machines, the item of the job for which the sequence is printed, and a sample.",
+        "For each sequence, the table lists the machines that have the sequence, the item of the job that causes postform to print it, and a sample.",
     );
     text += "| sequence | machines | event | sample | printed | required on |\n| --- | --- | --- | --- | --- | --- |\n";
     for row in SEQUENCES {

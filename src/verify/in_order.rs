@@ -1,6 +1,5 @@
-//! Compares paths of lathes and wire EDM machines, where no side of the part is always clear of the part: the tool must
-//! go to the same positions in the same order.
-
+//! Compares paths of lathes and wire EDM machines. There, a rapid can meet the part from every direction. Therefore the
+//! tool must go to the same positions in the same order.
 use super::cut::{ALL, DEPTH, RADIUS, Rapid, lies_between, same, shown};
 use crate::control::Control;
 use crate::lang::Machine;

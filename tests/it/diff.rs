@@ -492,7 +492,7 @@ fn motions_differ_after_the_last_cut() {
     assert_eq!(found, "the spindle leaves the last cut with stop, but with cw in the old program");
 }
 
-/// On a lathe, no side of the part is always clear of the part. The tool must go to the same positions in the same order,
+/// On a lathe, a rapid can meet the part from every direction. The tool must go to the same positions in the same order,
 /// also next to the home position. Two rapids may replace a slanted rapid, with the corner at the greater Z.
 #[test]
 fn motions_of_lathes_follow_the_same_path() {

@@ -1,5 +1,6 @@
 //! Compares paths of lathes and wire EDM machines. There, a rapid can meet the part from every direction. Therefore the
 //! tool must go to the same positions in the same order.
+
 use super::cut::{ALL, DEPTH, RADIUS, Rapid, lies_between, same, shown};
 use crate::control::Control;
 use crate::lang::Machine;

@@ -81,7 +81,7 @@ macro_rules! unmodelled {
 
 unmodelled! {
     Machine "the job is for a wire EDM machine, but the control is described only for mills";
-    Wire "the job threads or cuts the wire, but the codes for it are unknown without a form";
+    Wire "the job threads or cuts the wire, but no form gives the codes for these actions";
     SlantedArc "a slanted wire moves along an arc";
     Threads "a thread is cut on a machine that is not a lathe";
     Tilted "the tool axis changes";

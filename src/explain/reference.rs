@@ -20,8 +20,8 @@ pub fn commands() -> String {
     let mut text = head(
         "Commands of forms",
         "Commands come before the first sequence. `postform explain NAME` shows a command with an example. The last \
-         column gives the source of the definition: the manual, an example of the manual, or ours. \"Ours\" means \
-         that no public source defines the command, so postform defines it.\n\n\
+         column gives the source of the definition: the POSTFORM manual, an example of this manual, or ours. \"Ours\" \
+         means that no public source defines the command, so postform defines it.\n\n\
          Lengths in commands are in the units of the form (`Units`). With `Units both`, these lengths are in \
          inches, and postform converts them to the units of the program. For example, `CycleClear 3` is then 3 \
          inches, which is 76.2 mm. If the form does not contain `CycleClear`, `CycleBack` or `CycleJog`, postform \
@@ -61,8 +61,8 @@ pub fn variables() -> String {
         let (counts, by) = (unit(row.unit), origin(row.origin));
         text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
     }
-    text += "\n## Texts\n\nText variables are for comments and names. Only postform has text variables: the manual \
-             does not describe them. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
+    text += "\n## Texts\n\nText variables are for comments and names. Only postform has text variables: the POSTFORM \
+             manual does not describe them. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
     text += "| variable | is | set by |\n| --- | --- | --- |\n";
     for row in TEXTS {
         text += &format!("| `[{}]` | {} | {} |\n", row.name, cell(row.meaning), row.from);
@@ -74,7 +74,8 @@ pub fn variables() -> String {
 pub fn sequences() -> String {
     let mut text = head(
         "Sequences",
-        "For each sequence, the table lists the machines that have the sequence, the item of the job that causes postform to print it, and a sample.",
+        "For each sequence, the table lists the machines that have the sequence, the item of the job that causes \
+         postform to print the sequence, and a sample.",
     );
     text += "| sequence | machines | event | sample | printed | required on |\n| --- | --- | --- | --- | --- | --- |\n";
     for row in SEQUENCES {

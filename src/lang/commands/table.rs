@@ -16,7 +16,7 @@ macro_rules! command_rows {
             Machine "Machine" (Choice(&["Mill", "Lathe", "EDM", "Torch", "Laser"])) once (of("Mill")) Ours {=> machine_word}
                 "the type of machine; it decides which sequences and variables the form may use";
             Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
-                "units of the lengths in the form; for a job in other units, the form must print [unitmode]";
+                "units of the lengths in the form; if the job has different units, the form must print [unitmode]";
             Control "Control" (Words(1, 9, "the name of a control, such as `haas`, or a control file, such as `my-vf2.toml`"))
                 once (of("").told("similar to fanuc")) Ours {control: Option<&'static Control>}
                 "the control for which the programs are checked";
@@ -93,7 +93,7 @@ macro_rules! command_rows {
             DCode2 "DCode2" (Letters(1, 1)) once (of("W")) Ours {= axes2[2]}
                 "letter of the second depth axis";
             Ignore "Ignore" (Letters(1, 1)) once (of("")) Ours {=> ignored_axis} eg "Z"
-                "an axis of a torch or a laser whose positions are neither printed nor compared";
+                "axis of a torch or a laser; postform neither prints nor compares positions along this axis";
             ByDiameter "ByDiameter?" (Switch) once (of("N").lathe("Y")) Ours {by_diameter: bool}
                 "with `Y`, X words are diameters";
             RevSigns "RevSigns" (Letters(1, 15)) many (of("")) Ours {rev_signs: Vec<u8>} if (Letter) eg "Z"
@@ -115,7 +115,7 @@ macro_rules! command_rows {
             ByQuadrants "ByQuadrants?" (Switch) once (of("N")) Doc {by_quadrants: bool}
                 "with `Y`, arcs are split at the quadrant lines";
             ArcPlane "ArcPlane" (Motion(1, 3)) once (of("17 18 19")) Ours {planes: Vec<Code>}
-                "plane words; an arc in another plane is printed as lines";
+                "plane words; an arc in a plane without a word is printed as lines";
             Helical "Helical?" (Switch) once (of("Y")) Ours {helical: bool}
                 "with `N`, arcs that also move along the tool axis are printed as lines";
             MinRad "MinRad" (Length) once (of("0.0005").mm("0.01")) Ours {min_radius: f64}
@@ -123,9 +123,9 @@ macro_rules! command_rows {
             MaxRad "MaxRad" (Length) once (of("999").mm("25000")) Ours {max_radius: f64}
                 "arcs with a larger radius are printed as lines";
             Tolerance "Tolerance" (LengthAboveZero) once (of("0.0005").mm("0.01")) Ours {tolerance: f64}
-                "if an arc is printed as lines, the largest distance between the lines and the arc";
+                "largest distance between an arc and the lines that are printed instead of it";
             ArcWithLine "ArcWithLine?" (Switch) once (of("Y")) Ours {arc_with_line: bool}
-                "with `Y`, an arc after a line leaves out its motion code if the code is still active";
+                "with `Y`, an arc after a line leaves out its motion code if the same code is already active";
             ArcWithSame "ArcWithSame?" (Switch) once (of("Y")) Ours {arc_with_same: bool}
                 "with `Y`, an arc after another arc in the same direction leaves out its motion code";
             CircDir "CircDir" (Words(2, 2, "the words for clockwise and counter-clockwise arcs, as `DR- DR+`"))
@@ -156,7 +156,7 @@ macro_rules! command_rows {
             SpacesSwitch "Spaces?" (Switch) once (of("Y")) Ours {blanks: bool}
                 "with `Y`, postform prints a space between words";
             Spaces "Spaces" (Whole(1, 15)) once (of("")) Ours {columns: Vec<usize>} eg "8"
-                "words begin at fixed columns; the numbers are one width for all words, or the column of each word";
+                "words begin at fixed columns; one number is the width of every word, two or more numbers are the columns of the words";
             LeadingZeros "Leading0s?" (Switch) once (of("N")) Ours {leading_zeros: bool}
                 "with `Y`, postform prints 0.5 instead of .5";
             Eob "EOB" (Text) once (of("")) Ours {eob: String}
@@ -204,7 +204,7 @@ macro_rules! command_rows {
             RenumSubs "RenumSubs?" (Switch) once (of("Y")) Ours {renumber_subs: bool} if (With(&[S::SubStart]))
                 "with `Y`, subprograms are numbered from 1";
             VRapid "VRapid" (Motion(1, 1)) once (of("")) Ours {depth_rapid: Option<Code>} eg "G0"
-                "motion word of the depth part of a rapid; postform splits the rapid into a depth part and a part along the other axes";
+                "motion word of rapids along the depth axis; postform splits a rapid into a move along this axis and a move along the other axes";
             ZRestart "ZRestart?" (Switch) once (of("N")) Ours {restart_depth: bool}
                 "with `Y`, the move after a tool change prints the depth again";
             RevTurret2 "RevTurret2?" (Switch) once (of("N")) Ours {reverse_turret_2: bool}

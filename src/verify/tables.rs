@@ -80,7 +80,7 @@ macro_rules! unmodelled {
 }
 
 unmodelled! {
-    Machine "the job is for a wire EDM machine, but the control is described only for mills";
+    Machine "the job is for a wire EDM machine, but postform does not simulate this control on wire EDM machines";
     Wire "the job threads or cuts the wire, but no form gives the codes for these actions";
     SlantedArc "a slanted wire moves along an arc";
     Threads "a thread is cut on a machine that is not a lathe";
@@ -89,5 +89,5 @@ unmodelled! {
     LongSubprograms "subprograms of the job call each other endlessly, or are too long";
     Text "text of the job moves the tool, or changes the meaning of moves";
     ArcWithout "an arc has neither centre nor radius";
-    HoleWithout "a hole has no height";
+    HoleWithout "the job does not give the height of a hole";
 }

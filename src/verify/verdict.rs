@@ -38,8 +38,8 @@ allowed! {
     retracts "hole" "with full retracts where the job only breaks the chips" "holes.rs" "Holes in which the tool retracts out of the hole (as with G83), but the pecks of the job only break the chips (as with G73).";
     taps    "tapping cut" "made rigidly where the job has a floating holder" "modal.rs" "Cuts of a rigid tap (the feed follows the spindle), where the job has a tap with a floating holder.";
     ways    "path" "between cuts with the axes in another order or at a greater height" "rapids.rs" "Paths between cuts that move the axes in another order than the job, or at a greater height.";
-    tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions. These paths are at the greatest height of the job's path or higher.";
-    idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths of a tool without cuts, or in a work offset without cuts, that go to other positions. These paths are nowhere lower than the job's path.";
+    tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions than in the job. These paths are at the greatest height of the job's path or higher.";
+    idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths to other positions than in the job, if the tool makes no cut, or if nothing is cut in the work offset. These paths are nowhere lower than the job's path.";
     arcs    "arc" "made of parts" "arcs.rs" "Arcs made of several lines or arcs.";
     parts   "straight cut" "made of parts" "lines.rs" "Straight cuts made of several moves.";
     short   "cut" "left out or added with a length near or below the tolerance" "align.rs" "Cuts of the job that are shorter than the tolerance and are missing in the program. Also cuts that are shorter than twice the tolerance and that only the program has.";

@@ -1,5 +1,6 @@
 //! Jobs: the work to be machined, in any format. A job turns bytes into events.
 
+mod descent;
 mod format;
 mod held;
 mod join;

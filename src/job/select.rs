@@ -5,16 +5,19 @@
 //! tool stays the same. These values are added to the next operation that is selected. That operation starts at the
 //! position that the tool would have reached. It begins with a tool change, even if its tool is in the spindle: the tool is
 //! retracted from the end of the last operation in the program. If a state of a left-out operation can't be added, the
-//! operation after it is refused.
+//! operation after it is refused. It is also refused if it begins at a height to which the tool does not come down by a
+//! rapid in the whole program.
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
+use super::descent::Descent;
 use super::held::{Held, UPRIGHT, is_variable};
 use super::left_out_text::{Left, Other};
 use super::subs::Subs;
 use crate::control::Control;
 use crate::diag::{Code, Diag};
+use crate::lang::Machine;
 use crate::toolpath::{
     Axes, Call, Event, First, Flow, Hold, Hole, JobAxes, Place, Sink, Start, Stop, ToolChange, flow,
 };
@@ -48,6 +51,9 @@ impl Selection {
         self.from.into_iter().chain(self.until).chain(self.only.iter().copied()).chain(self.skip.iter().copied())
     }
 }
+
+/// The correction for an operation that can't be printed alone.
+const INCLUDE: &str = "include the operation before it too";
 
 /// Progress of a selection through the job.
 #[derive(Clone, Copy, Default)]
@@ -111,6 +117,9 @@ pub(super) struct Selecting<'s> {
     passed_tilt: [f64; 3],
     /// The position, with only the axes that are known.
     at: Axes,
+    /// How the tool comes to its height, on a mill.
+    descent: Descent,
+    is_mill: bool,
     /// Rotary axes that a subprogram of a left-out operation turned to an unknown angle, as bits.
     turned: u8,
     tools: Vec<f64>,
@@ -137,6 +146,8 @@ impl<'s> Selecting<'s> {
             passed_at: Axes::default(),
             passed_tilt: UPRIGHT,
             at: Axes::default(),
+            descent: Descent::default(),
+            is_mill: true,
             turned: 0,
             tools: Vec::new(),
             taken: 0,
@@ -154,9 +165,13 @@ impl<'s> Selecting<'s> {
             self.passed_at = if self.fills { self.passed_at } else { self.at };
         }
         let frame = (self.held.tool, self.held.work);
+        if change.changes_to(self.held.tool).is_some() {
+            self.descent = Descent::default();
+        }
         self.held.operation(change);
         if frame != (self.held.tool, self.held.work) {
             self.forgets(self.linear);
+            self.descent = Descent::default();
         }
         self.name.clone_from(&change.name);
         self.takes = self.progress.takes(self.selection, tool, self.held.work);
@@ -170,11 +185,15 @@ impl<'s> Selecting<'s> {
             return self.sink.event(Event::ToolChange(change), place);
         }
         if let Some(lost) = self.held.lost() {
-            return Flow::Break(self.not_alone(&format!("follows an operation that is left out: {lost}"), place));
+            return Flow::Break(self.not_alone(
+                &format!("follows an operation that is left out: {lost}"),
+                INCLUDE,
+                place,
+            ));
         }
         if matches!(change.first, First::Cut) {
             let why = "begins with a cut from the last position of an operation that is left out";
-            return Flow::Break(self.not_alone(why, place));
+            return Flow::Break(self.not_alone(why, INCLUDE, place));
         }
         let held = &self.held;
         let properties = change.set.iter().filter(|(name, _)| !is_variable(name));
@@ -192,10 +211,10 @@ impl<'s> Selecting<'s> {
     }
 
     /// The error that the current operation can't be printed without the operations that are left out.
-    fn not_alone(&self, why: &str, place: Place) -> Stop {
+    fn not_alone(&self, why: &str, help: &str, place: Place) -> Stop {
         let name = self.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
         let message = format!("the operation{name} {why}");
-        Diag::new(Code::PR060, message).help("include the operation before it too").place(place).into()
+        Diag::new(Code::PR060, message).help(help).place(place).into()
     }
 
     /// The first move of an operation after a left-out operation, with the missing axes filled in. `filled`: space for a
@@ -220,7 +239,29 @@ impl<'s> Selecting<'s> {
         let axis = char::from(axis);
         let why =
             format!("does not give {axis} at its first position, but an operation that is left out turns this axis");
-        Err(self.not_alone(&why, place))
+        Err(self.not_alone(&why, INCLUDE, place))
+    }
+
+    /// Checks that the tool may come down to the first position of an operation after a left-out operation.
+    fn comes_down(&self, event: &Event<'_>, place: Place) -> Flow {
+        let at = match event {
+            Event::Rapid(to) => to,
+            Event::SubCall(call) if call.at.given != 0 => &call.at,
+            _ => return Flow::Continue(()),
+        };
+        let (mut descent, height) = (self.descent, at.get(2));
+        descent.rapid(height);
+        let Some(height) = height.filter(|_| self.is_mill && !descent.is_clear) else { return Flow::Continue(()) };
+        let why = format!(
+            "begins at Z{height}, where the last cut of an operation that is left out leaves the tool: the whole program \
+             does not come down to this height by a rapid"
+        );
+        let lowest = descent.lowest.map_or("a clearance height".to_owned(), |lowest| format!("Z{lowest} or higher"));
+        let help = format!(
+            "raise the tool to {lowest} by a rapid, at the end of the operation before it or at the beginning of this one; \
+             or include the operation before it too"
+        );
+        Flow::Break(self.not_alone(&why, &help, place))
     }
 
     /// A position whose missing axes are filled in with the known position.
@@ -250,6 +291,7 @@ impl<'s> Selecting<'s> {
 
     /// Updates the values that stay in force after an event.
     fn follow(&mut self, event: &Event<'_>) {
+        self.descent.follow(event);
         if let Some(to) = event.target() {
             self.goes(&to);
         }
@@ -316,6 +358,7 @@ impl<'s> Selecting<'s> {
     fn start(&mut self, start: &Start, place: Place) -> Flow {
         let axes = JobAxes::of(start.machine);
         (self.linear, self.depth) = (axes.linear, axes.depth_bit());
+        self.is_mill = start.machine == Machine::Mill;
         let Some(order) = &start.tool_order else { return self.sink.event(Event::Start(start), place) };
         let mut progress = Progress::default();
         let mut taken = order.clone();
@@ -347,6 +390,9 @@ impl Sink for Selecting<'_> {
             },
             false => event,
         };
+        if self.fills {
+            self.comes_down(&event, place)?;
+        }
         self.follow(&event);
         if !self.takes && !matches!(event, Event::Finish) || matches!(event, Event::Tilt(_)) {
             return Flow::Continue(());

@@ -104,6 +104,52 @@ fn a_part_does_not_take_the_position_of_another_tool_or_work_offset() {
     }
 }
 
+/// The tool change of a part comes down to the first position of the part. An operation is refused if it begins at the
+/// depth of the last cut before it, or at another height to which the whole program does not come down by a rapid.
+#[test]
+fn a_part_begins_at_a_height_to_which_the_whole_program_comes_down() {
+    let post = post();
+    let slot = r#"{"rapid":[0,0,20]},{"rapid":[0,0,2]},{"line":[0,0,-5]},{"line":[90,0,-5]}"#;
+    let side = r#"{"rapid":[0,-20,20]},{"rapid":[0,-20,-5]},{"line":[90,-20,-5]}"#;
+    let straight = r#"{"rapid":[0,0,20]},{"line":[0,0,-5]},{"line":[90,0,-5]}"#;
+    let drilled = r#"{"rapid":[0,0,20]},{"cycle":{"kind":"drill","depth":5,"clear":3,"feed":50,"points":[[1,1,0]]}}"#;
+    for (before, first, refused) in [
+        (slot, r#"{"rapid":[90,30]}"#, Some("begins at Z-5")),
+        (slot, r#"{"rapid":[90,30,-5]}"#, Some("begins at Z-5")),
+        (slot, r#"{"rapid":[90,0,-4]},{"rapid":[90,30,-4]}"#, Some("begins at Z-4")),
+        (slot, r#"{"rapid":[90,30,-6]}"#, Some("begins at Z-6")),
+        // up to the clearance, or directly to a position above it
+        (slot, r#"{"rapid":[90,0,2]},{"rapid":[90,30,2]}"#, None),
+        (slot, r#"{"rapid":[90,30,5]}"#, None),
+        (slot, r#"{"line":[90,0,2]}"#, Some("begins with a cut")),
+        // the tool came down to this depth beside the part only
+        (side, r#"{"rapid":[90,0]}"#, Some("begins at Z-5")),
+        (side, r#"{"rapid":[90,-20,20]}"#, None),
+        (straight, r#"{"rapid":[90,0,2]}"#, Some("raise the tool to Z20 or higher")),
+        (straight, r#"{"rapid":[90,0,20]}"#, None),
+        (drilled, r#"{"rapid":[1,1,3]}"#, None),
+    ] {
+        for after in ["", r#",{"rapid":[null,null,20]}"#] {
+            let text = job(&[
+                operation(1, &format!("\"work\":54,{TURNS}"), &format!("{before}{after}")),
+                operation(1, TURNS, &format!(r#"{first},{{"line":[90,40,-5]}},{{"rapid":[90,40,20]}}"#)),
+            ]);
+            print(&post, &text, None).unwrap();
+            let mut part = Job::json(&text);
+            part.reading.select.operation = Some(2);
+            let error = post.render(part, &Options::default()).err().map(|error| error.to_string());
+            let is_cut = refused.is_some_and(|why| why.contains("a cut"));
+            match refused.filter(|_| after.is_empty() || is_cut) {
+                None => assert_eq!(error, None, "{before}{after} {first}"),
+                Some(why) => {
+                    let error = error.unwrap_or_else(|| panic!("{before} {first}"));
+                    assert!(error.contains("PR060") && error.contains(why), "{before} {first}: {error}");
+                }
+            }
+        }
+    }
+}
+
 /// The rapids of an operation on a lathe stay apart in a part, because both axes at once can go through a shoulder.
 #[test]
 fn a_part_keeps_the_order_of_the_rapids() {

@@ -166,6 +166,10 @@ impl<'p> Renderer<'p> {
             Event::ToolChange(change) => return tools::tool_change(change, shape, want, said, out, subs, sections),
             event => event,
         };
+        // a hole has its height only after its own moves
+        let gives_height = said.stand.awaits_height()
+            && !matches!(event, Event::Hole(_))
+            && event.target().is_some_and(|to| to.given & shape.depth_bit() != 0);
         let cx = &mut Cx { shape, want, said, out };
         match event {
             Event::Rapid(to) => rapid::rapid(&to, cx),
@@ -182,7 +186,12 @@ impl<'p> Renderer<'p> {
                 want.set_feed(feed, shape);
                 Ok(())
             }
-            Event::Work(work) => want.set_work(work, shape),
+            Event::Work(work) => {
+                let before = want.get(VarId::Work);
+                want.set_work(work, shape)?;
+                said.stand.changes_work(before, want.get(VarId::Work));
+                Ok(())
+            }
             Event::Spindle(spindle) => want.set_spindle(&spindle, shape),
             Event::Coolant(coolant) => want.set_coolant(coolant, shape),
             Event::Set(name, value) => variables::set_named(name, value, shape, want, out),
@@ -199,7 +208,11 @@ impl<'p> Renderer<'p> {
             Event::SubEnd => subprograms::sub_end(cx, subs, sections),
             Event::SubCall(call) => calls::sub_call(call, cx, subs),
             Event::Finish => finish::finish(cx, subs, sections),
+        }?;
+        if gives_height {
+            said.stand.has_height();
         }
+        Ok(())
     }
 }
 

@@ -60,7 +60,7 @@ pub(super) struct Standing {
     pub work: Option<f64>,
     /// Infinite at a machine position.
     pub height: f64,
-    /// Whether the tool is still at the end of the last cut.
+    /// Whether the tool is still at the end of the last cut, and this cut did not go up.
     pub in_cut: bool,
 }
 
@@ -71,6 +71,8 @@ pub(super) struct Passage {
     pub start: Option<Rapid>,
     /// Whether the passage begins at the end of a cut. `false`: it begins at the start of the program.
     after_cut: bool,
+    /// Whether this cut went up.
+    rises: bool,
     pub rapids: Vec<Rapid>,
     /// The cutter compensation that is on now.
     pub side: Option<Compensated>,
@@ -120,6 +122,7 @@ impl Passage {
         Passage {
             start,
             after_cut: false,
+            rises: false,
             rapids: Vec::new(),
             side: None,
             legs: vec![Leg { frame, ..Leg::default() }],
@@ -133,6 +136,8 @@ impl Passage {
     /// Begins the next passage at the end of a cut.
     #[inline]
     pub fn begin(&mut self, start: Rapid) {
+        let from = self.rapids.last().or(self.start.as_ref());
+        self.rises = from.is_some_and(|from| from.unknown & 1 << DEPTH == 0 && from.to[DEPTH] < start.to[DEPTH]);
         (self.start, self.after_cut) = (Some(start), true);
         self.rapids.clear();
         if self.legs.len() > 1 {
@@ -342,7 +347,7 @@ impl Passage {
         let [own, since @ ..] = self.legs.get(made..=leg)? else { return None };
         let stays = |leg: &Leg| leg.frame.tool == own.frame.tool;
         let height = corner.height();
-        let in_cut = self.after_cut && moved == 0;
+        let in_cut = self.after_cut && !self.rises && moved == 0;
         since.iter().all(stays).then_some(Standing { work: own.frame.work, height, in_cut })
     }
 

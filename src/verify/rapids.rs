@@ -320,18 +320,18 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
 }
 
 /// The program's first move across in another work offset at a height that is too low: lower than the job when it
-/// changes the offset, or still at the end of the cut although the job goes up there. Heights are compared in the same
-/// work offset.
+/// changes the offset, or still at the end of the cut although the job leaves this height. Heights are compared only in
+/// the same work offset.
 fn low_entry(job: &Passage, program: &Passage, tolerance: f64) -> Option<(Entry, f64)> {
     let end = Entry { work: None, height: job.last_height(), first: None };
     let own = job.entries().chain((!job.changed()).then_some(end));
     program.entries().zip(own).filter(|(made, _)| made.crosses()).find_map(|(made, own)| {
         let (is, wanted) = (made.height?, own.height?);
-        let goes_up = |first: Rapid| first.unknown & 1 << DEPTH == 0 && first.to[DEPTH] > is.height + tolerance;
-        let rises = is.in_cut && made.keeps_height() && own.first.is_some_and(goes_up);
+        // the heights before and after the change are not compared, because their zero points differ
+        let leaves = is.in_cut && made.keeps_height() && own.first.is_some_and(|first| first.unknown & 1 << DEPTH == 0);
         let is_lower = is.height < wanted.height - tolerance && wanted.height.is_finite();
         let is_same = wanted.work.is_none() || is.work == wanted.work;
-        (is_same && (rises || is_lower)).then_some((made, wanted.height))
+        (is_same && (leaves || is_lower)).then_some((made, wanted.height))
     })
 }
 

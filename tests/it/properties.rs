@@ -50,7 +50,7 @@ const OPERATION: &str = "\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9,\"direc
 fn form() -> postform::internals::sema::Checked {
     check(&mill(
         "Sequence#s N 1 1\nX->9.>4\nY->9.>4\nZ->9.>4\nP->9.>3",
-        "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel",
+        "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\nWorkChange\nG0 G53 Z0\nG[work]\nEnd",
     ))
 }
 

@@ -932,6 +932,74 @@ fn in_another_work_offset_an_operation_begins_at_its_first_position() {
     }
 }
 
+/// A cycle directly after a change of the work offset. The height of the tool is a number of the offset before, so this
+/// number does not decide whether the tool first moves up or across.
+#[test]
+fn a_cycle_in_another_work_offset_does_not_begin_at_a_height_of_the_offset_before() {
+    let haas = plain_post("haas.pf");
+    let bare = haas.replacen("\nUpon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd\n", "\n", 1);
+    assert_ne!(bare, haas);
+    let retracts = format!("{bare}\nWorkChange\nG0 G53 Z0\nG[work]\nEnd\n");
+    let (above, unknown) = (["G55", "X5. Y5.", "Z2."], "PR017 the work offset changes before this move");
+    let retracted = ["G0 G53 Z0", "G55", "X5. Y5.", "Z2."];
+    let cut = r#"{"rapid":[0,0,20]},{"line":[0,0,-1]},{"line":[10,0,-1]}"#;
+    for (form, end, expected) in [
+        // up from 1 to 2 in the numbers, but down if the zero point of G55 is lower
+        (&bare, r#",{"rapid":[10,0,1]}"#, Err(unknown)),
+        (&bare, "", Err(unknown)),
+        (&bare, r#",{"rapid":[10,0,20]}"#, Ok(&above[..])),
+        // after the retract, the tool does not go down before it moves across
+        (&retracts, r#",{"rapid":[10,0,1]}"#, Ok(&retracted[..])),
+        (&retracts, "", Ok(&retracted[..])),
+        (&retracts, r#",{"rapid":[10,0,20]}"#, Ok(&retracted[..])),
+    ] {
+        let cycle = r#"{"cycle":{"kind":"drill","depth":5,"clear":2,"feed":50,"points":[[5,5,0],[6,6,0]]}}"#;
+        let keys = r#""spindle":{"speed":2000,"direction":"cw"},"feed":100"#;
+        let first = format!(r#"{{"tool":1,"work":54,{keys},"path":[{cut}{end}"#);
+        let head = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1,"length_offset":1}],"operations":"#;
+        for text in [
+            format!(r#"{head}[{first},{{"work":55}},{cycle}]}}]}}"#),
+            format!(r#"{head}[{first}]}},{{"tool":1,"work":55,{keys},"path":[{cycle}]}}]}}"#),
+        ] {
+            let lines = program(form, &text);
+            let words: Vec<&str> =
+                lines.iter().map(|line| line.split_once(' ').map_or("", |(_, words)| words)).collect();
+            match expected {
+                Err(message) => assert!(lines[0].starts_with(message), "{end}: {lines:?}"),
+                Ok(blocks) => {
+                    let at = words.iter().position(|words| *words == "G55").unwrap_or_else(|| panic!("{lines:?}"));
+                    let from = at + 3 - blocks.len();
+                    assert_eq!(words[from..from + blocks.len()], *blocks, "{end}: {lines:?}");
+                }
+            }
+        }
+    }
+}
+
+/// From the depth of a cut, the job goes to the height of a hole in another work offset. The program must not move across
+/// at the depth of the cut, also if the number of the hole's height is lower.
+#[test]
+fn the_depth_of_a_cut_is_not_left_across_in_another_work_offset() {
+    let folder = Folder::new("across-at-depth");
+    folder.write("form.pf", plain_post("haas.pf"));
+    let text = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[{"tool":1,"work":54,"spindle":{"speed":2000,"direction":"cw"},"feed":100,"path":[
+        {"rapid":[0,0,20]},{"line":[0,0,-1]},{"line":[10,0,-1]},{"work":55},{"rapid":[5,5,-7]},{"line":[5,5,-9]},{"rapid":[5,5,20]}]}]}"#;
+    folder.write("job.json", text);
+    let printed = program(&plain_post("haas.pf"), text).join("\n");
+    let number = printed.lines().find(|line| line.ends_with(" G0 G53 Z0")).unwrap().to_owned();
+    for (between, message) in
+        [("G55 X5. Y5. Z-7.", None), ("G55 X5. Y5.\nZ-7.", Some("crosses at Z-1 of the offset before"))]
+    {
+        let (before, after) = printed.split_once(&number).unwrap();
+        let after = after.split_once(" Z-7.\n").unwrap().1;
+        folder.write("program.nc", format!("{before}G0\n{between}\n{after}"));
+        let verified = folder.run(&["verify", "job.json", "--form", "form.pf", "--nc", "program.nc"]);
+        let found = err(&verified);
+        assert_eq!(message.is_none(), verified.status.success(), "{between}: {found}");
+        assert!(message.is_none_or(|message| found.contains(message)), "{between}: {found}");
+    }
+}
+
 /// Some cycles are printed by the sequences of other cycles.
 #[test]
 fn some_cycles_are_made_as_others() {

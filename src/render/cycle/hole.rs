@@ -142,6 +142,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
         }
         None => generated_hole(&planned, cx, drill)?,
     }
+    cx.said.stand.has_height();
     if let Some(cycle) = &mut drill.open {
         cycle.holes += 1;
         cycle.depth = hole.depth;

@@ -111,7 +111,7 @@ pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
         }
     }
     if !exit_known {
-        cx.said.displaced(shape.depth_bit(), shape); // an increment needs a known start
+        cx.said.lose_start(shape.depth_bit(), shape); // an increment needs a known start
     }
     Ok(())
 }

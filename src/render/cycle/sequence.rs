@@ -9,7 +9,7 @@ use crate::lang::{VarId, VarSet};
 use crate::render::body::{Mode, go_on, run, run_part, run_sets};
 use crate::render::cx::{Cx, Writer};
 use crate::render::fault::Done;
-use crate::render::moves::rapid_blocks::{is_below, raise, split_rapid};
+use crate::render::moves::rapid_blocks::{changes_depth_and_plane, is_below, raise, split_rapid};
 use crate::render::numbers::quantised;
 use crate::render::prelude::{motion_block, plane_block};
 use crate::render::printer::Printer;
@@ -266,15 +266,20 @@ fn approach(target: &Axes, cx: &mut Cx<'_>) -> Done {
     if !cx.said.differs_from(target, shape.depth_bit(), shape) {
         return Ok(());
     }
-    if is_below(target, shape, cx.said) { raise(target, cx) } else { split_rapid(target, cx) }
+    // the cycle itself moves across
+    if changes_depth_and_plane(target, shape, cx.said) && is_below(target, shape, cx.said)? {
+        return raise(target, cx);
+    }
+    split_rapid(target, cx)
 }
 
 /// Raises the tool before an emulated cycle if it is below the return plane, because the cycle's first line may move across.
 fn raise_to(target: &Axes, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
-    let below = is_below(target, shape, cx.said) && cx.said.differs_from(target, shape.depth_bit(), shape);
-    let across = (0..2).any(|axis| axis != shape.depth && cx.said.stand.position.get(axis) != target.get(axis));
-    if !below || !across {
+    let goes_up = cx.said.differs_from(target, shape.depth_bit(), shape);
+    let across = cx.said.stand.is_of_other_work()
+        || (0..2).any(|axis| axis != shape.depth && cx.said.stand.position.get(axis) != target.get(axis));
+    if !goes_up || !across || !is_below(target, shape, cx.said)? {
         return Ok(());
     }
     cancel(cx, drill)?; // otherwise the control would read the rapid as a hole

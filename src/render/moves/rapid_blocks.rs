@@ -1,10 +1,11 @@
 //! Rapids as blocks: in one block, or in two (up first or down last).
 
 use super::measure::measure;
+use crate::diag::Code;
 use crate::lang::SequenceId;
 use crate::render::body::{Mode, run};
 use crate::render::cx::Cx;
-use crate::render::fault::Done;
+use crate::render::fault::{Done, fault};
 use crate::render::prelude::{check_prints, motion_block};
 use crate::render::program::home::after_home;
 use crate::render::said::{LastMove, Said};
@@ -40,7 +41,7 @@ pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
     // each of the two rapids moves only its own axes; the other axes do not move, whether they are printed or not
     let depth = shape.depth_bit();
     let part = |axes: u8| Axes { given: target.given & axes, ..*target };
-    if is_below(target, shape, cx.said) {
+    if is_below(target, shape, cx.said)? {
         rapid_block(&part(depth), code, cx)?;
         rapid_block(target, None, cx)
     } else {
@@ -49,13 +50,29 @@ pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
     }
 }
 
-/// Whether the tool's last known height is below the target. A tool at an unknown height counts as above the target.
-pub fn is_below(target: &Axes, shape: &Shape, said: &Said) -> bool {
+/// Whether the tool is below the target, so that it must move up before it moves across. A tool at an unknown height counts
+/// as above the target. After a change of the work offset, a tool that the form has retracted is above the target.
+///
+/// # Errors
+/// The tool's height is a number of another work offset, and this number is below the target: whether the tool is below
+/// the target depends on the zero points.
+pub fn is_below(target: &Axes, shape: &Shape, said: &Said) -> Done<bool> {
     let from = said.stand.position.get(shape.depth).or(said.stand.left_at);
-    from.is_some_and(|from| target.values[shape.depth] > from)
+    let is_below = from.is_some_and(|from| target.values[shape.depth] > from);
+    if !is_below || !said.stand.is_of_other_work() {
+        return Ok(is_below);
+    }
+    if said.stand.is_retracted {
+        return Ok(false);
+    }
+    let message = "the work offset changes before this move, so whether the tool is below the target is unknown";
+    let help = "retract in the form, with `G0 G53 Z0` before G[work] in `WorkChange` or `Upon [work]`; or put a rapid to \
+        a height above the target before the change of the work offset";
+    fault(Code::PR017, message, help)
 }
 
-fn changes_depth_and_plane(target: &Axes, shape: &Shape, said: &Said) -> bool {
+/// Whether a rapid changes the height and another axis.
+pub fn changes_depth_and_plane(target: &Axes, shape: &Shape, said: &Said) -> bool {
     said.differs_from(target, shape.depth_bit(), shape) && said.differs_from(target, 0x3f & !shape.depth_bit(), shape)
 }
 

@@ -25,7 +25,9 @@ pub fn turn_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
         return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(routine.span));
     }
     // an Index that does not raise the tool itself would turn the part under the tool
-    if target.get(shape.depth).is_some() && !prints_axis_words(routine, true, shape) && is_below(target, shape, cx.said)
+    if target.get(shape.depth).is_some()
+        && !prints_axis_words(routine, true, shape)
+        && is_below(target, shape, cx.said)?
     {
         raise(target, cx)?;
     }

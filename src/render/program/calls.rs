@@ -62,6 +62,8 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     if let Some(work) = call.work {
         cx.want.set_work(work, shape)?;
     }
+    let called_in = cx.want.get(VarId::Work);
+    cx.said.stand.changes_work(work, called_in);
     let routine = shape.way(base, cx.want, cx.said);
     let place = go_to_call(call, routine, cx)?;
     cx.want.set(VarId::Sub, printed);
@@ -91,6 +93,7 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
         after_call(called, cx.want, cx.said, subs);
     }
     // the call's work offset applies to the call only: afterwards the operation's offset is active again
+    cx.said.stand.changes_work(called_in, work);
     cx.want.put(VarId::Work, work);
     cx.want.changed = true;
     Ok(())
@@ -209,6 +212,7 @@ fn go_to_call(call: &Call, routine: &Routine, cx: &mut Cx<'_>) -> Done<Axes> {
 /// Updates the known state after a call: the tool moved, and the subprogram's changes apply.
 fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     said.stand.fresh_tool = None;
+    said.stand.has_height();
     said.beside.doubt();
     forget_where(want, said);
     let known = called.map(|i| &subs.defined[i]).filter(|sub| !sub.calls_ahead);

@@ -53,7 +53,7 @@ pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
     }
     cx.said.end_block(cx.want, shape);
     cx.said.forget_words();
-    cx.said.displaced(0x3f, shape);
+    cx.said.lose_start(0x3f, shape);
     cx.said.differs |= cx.said.is_misread(shape, cx.want) || !cx.said.lacks(cx.want, shape).is_empty();
     cx.out.text(text, false);
     cx.out.end_block();

@@ -56,8 +56,11 @@ pub fn tool_change(
         said.from_home = false;
         change_tool(tool, change, shape, want, said, out)?;
     } else {
+        let now = want.get(VarId::Work);
+        said.stand.changes_work(work, now);
         if let First::Rapid(first) = &change.first
-            && work.is_some_and(|work| want.get(VarId::Work) != Some(work))
+            && work.is_some()
+            && work != now
         {
             said.stand.goes_to_first(first, shape);
         }

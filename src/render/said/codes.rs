@@ -67,7 +67,7 @@ impl Said {
         if own_stop || meaning.is_some_and(Meaning::is_stop) {
             self.stopped(want, shape);
         } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning.changes_tool()) {
-            self.forget_axes(shape); // a tool changer, macro or subprogram may move to any position
+            self.moves_itself(shape); // a tool changer, macro or subprogram may move to any position
             self.forget_motion();
         }
     }
@@ -119,7 +119,7 @@ impl Said {
             Some(Frame::Block) => {
                 self.shift = self.shift.max_of(Shift::Block);
                 if meaning != Some(Meaning::Machine) && !line.prints_axes(shape) {
-                    self.forget_axes(shape);
+                    self.moves_itself(shape);
                 }
             }
             // on a lathe G92 is a threading cycle
@@ -142,7 +142,7 @@ impl Said {
             // the code moves by itself, or its effect is unknown
             None if !is_harmless(code, meaning, want, shape) => {
                 self.shift = self.shift.max_of(Shift::Block);
-                self.forget_axes(shape);
+                self.moves_itself(shape);
                 self.forget_motion();
             }
             _ => {}

@@ -22,6 +22,11 @@ pub struct Stand {
     /// The position after a cycle and the job's height, if the control left the cycle at another height than the job's
     /// height. The next cut begins at the job's height.
     pub left_hole: Option<(Axes, f64)>,
+    /// The work offset of the height in `position`, if the work offset has changed since and no item has given a height.
+    height_of: Option<f64>,
+    /// Whether the form moved the tool along the depth axis by its own words, as in `G53 Z0`, and no item has given a height
+    /// since.
+    pub is_retracted: bool,
     /// The sequence that moved the tool to typed positions. A rapid returns the tool to the job's positions.
     pub moved_by: Option<Span>,
     /// The axes along which the previous tool had a known position. The axes are kept from a tool change to the first
@@ -70,6 +75,28 @@ impl Stand {
     pub fn forget_position(&mut self) {
         self.position = Axes::default();
         self.left_at = None;
+    }
+
+    /// Records that the work offset changes from `before` to `now`.
+    pub fn changes_work(&mut self, before: Option<f64>, now: Option<f64>) {
+        self.height_of = self.height_of.or(before).filter(|work| Some(*work) != now);
+    }
+
+    /// Whether the height in `position` is a number of another work offset.
+    #[inline]
+    pub fn is_of_other_work(&self) -> bool {
+        self.height_of.is_some()
+    }
+
+    /// Whether the next height of an item decides where the tool is.
+    #[inline]
+    pub fn awaits_height(&self) -> bool {
+        self.is_of_other_work() || self.is_retracted
+    }
+
+    /// Records that an item has moved the tool to a height of the active work offset.
+    pub fn has_height(&mut self) {
+        (self.height_of, self.is_retracted) = (None, false);
     }
 
     /// Takes the first position of an operation as the position in a new work offset. The numbers of the position in the

@@ -273,9 +273,15 @@ impl Said {
         self.motion = None;
     }
 
-    /// Records that words other than the job's positions moved the tool along these axes. The job's positions stay
-    /// valid, but the start of increments is now unknown.
+    /// Records that the form moved the tool along these axes, with words other than the job's positions.
     pub fn displaced(&mut self, axes: u8, shape: &Shape) {
+        self.stand.is_retracted |= axes & shape.depth_bit() != 0;
+        self.lose_start(axes, shape);
+    }
+
+    /// Records that words other than the job's positions may have moved the tool along these axes. The job's positions
+    /// stay valid, but the start of increments is now unknown.
+    pub fn lose_start(&mut self, axes: u8, shape: &Shape) {
         self.stand.placed &= !axes;
         if shape.program.settings.incremental {
             self.stand.position.given &= !axes;
@@ -283,9 +289,15 @@ impl Said {
         }
     }
 
+    /// Records that the form moved the tool to a position that only the control knows, for example by a macro.
+    pub fn moves_itself(&mut self, shape: &Shape) {
+        self.stand.is_retracted = true;
+        self.forget_axes(shape);
+    }
+
     /// Records that the axis positions are unknown.
     pub fn forget_axes(&mut self, shape: &Shape) {
-        self.displaced(0x3f, shape);
+        self.lose_start(0x3f, shape);
         for letter in shape.axes.into_iter().chain(shape.program.settings.axes2) {
             self.forget(&shape.letters[letter]);
         }

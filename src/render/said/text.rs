@@ -142,7 +142,7 @@ impl Said {
                 self.registers.forget_group(group);
             }
         }
-        self.displaced(shape.axis_bit(letter), shape);
+        self.lose_start(shape.axis_bit(letter), shape);
         self.registers.forget(letter);
     }
 
@@ -167,7 +167,7 @@ impl Said {
     /// Forgets positions, motions and all words.
     fn forget_motions(&mut self, shape: &Shape) {
         self.forget_words();
-        self.forget_axes(shape);
+        self.moves_itself(shape);
         self.forget_motion();
     }
 }

@@ -123,16 +123,22 @@ impl<'s> Hold<'s> {
 
     /// Records the target of a rapid. For each axis, the first position is kept. The height of a new tool is unknown
     /// until a rapid gives a height. Until a rapid gives a height, the last rapid across counts, because the tool goes
-    /// down at the end of this rapid.
-    fn reaches(&mut self, to: &Axes) {
+    /// down at the end of this rapid. Returns the target, with the axes that only the rapids before it give if these
+    /// rapids are removed.
+    fn reaches(&mut self, to: &Axes) -> Axes {
+        let mut target = *to;
         if self.is_way() && self.first.given & to.given & !self.depth != 0 {
             self.first.given &= !to.given;
             self.forget_ways();
+            for axis in (0..6).filter(|&axis| self.first.given & 1 << axis != 0) {
+                target.set(axis, self.first.values[axis]);
+            }
         }
         let new = to.given & !self.first.given;
         for axis in (0..6).filter(|axis| new & 1 << axis != 0) {
             self.first.set(axis, to.values[axis]);
         }
+        target
     }
 
     /// Whether the held tool change loads another tool and no rapid so far gives a height.
@@ -178,9 +184,9 @@ impl<'s> Hold<'s> {
             }
             Event::Rapid(to) => {
                 // CAM systems give the height and the position across in either order, so wait for both
-                self.reaches(&to);
+                let to = self.reaches(&to);
                 if self.axes & !self.first.given == 0 || to.given & !self.axes != 0 {
-                    return self.release_before(event, place, First::Nothing);
+                    return self.release_before(Event::Rapid(to), place, First::Nothing);
                 }
                 self.wait(Waiting::Plain(Event::Rapid(to)), place)
             }

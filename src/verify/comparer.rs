@@ -3,7 +3,7 @@
 use std::io::{Read, Seek};
 
 use super::beside::Compensated;
-use super::cut::{ACROSS, Cut, DEPTH, Rapid, What, is_straight, over, same, same_ends, shown};
+use super::cut::{ACROSS, Cut, DEPTH, Place, Rapid, What, is_straight, over, same, same_ends, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Straight, Threaded};
@@ -297,6 +297,12 @@ impl Intent for Sides<'_> {
         self.hole.before = self.hole.before.or(self.hole.last).filter(|_| !self.hole.cut);
         self.hole.last = Some(*hole);
         Ok(())
+    }
+
+    fn begins_at(&mut self, first: &Place, axes: u8) {
+        if let Some(leg) = self.job.leg() {
+            leg.first = Some((*first, axes));
+        }
     }
 
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool) {

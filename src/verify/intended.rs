@@ -225,13 +225,16 @@ impl Job {
         if let Some(work) = change.work {
             self.work(work, to);
         }
-        if let First::Rapid(first) = &change.first
-            && work.is_some()
-            && work != self.state.work
-            && change.changes_to(tool).is_none()
-        {
-            // the numbers of the position in the work offset before have no meaning in the new one
-            self.at = self.target(&Axes { given: first.given & 0b111, ..*first });
+        if let First::Rapid(first) = &change.first {
+            let first = Axes { given: first.given & 0b111, ..*first };
+            if change.changes_to(tool).is_some() {
+                if self.machine == Machine::Mill {
+                    to.begins_at(&self.whole(&first), first.given);
+                }
+            } else if work.is_some() && work != self.state.work {
+                // the numbers of the position in the work offset before have no meaning in the new one
+                self.at = self.target(&first);
+            }
         }
         self.mode = change.feed_mode.unwrap_or(FeedMode::PerMinute);
         self.feed = change.feed;

@@ -41,6 +41,8 @@ pub(super) trait Intent {
     /// The tool or the work offset changes. Positions after this change are in another coordinate frame. `length`: the
     /// tool's length register.
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
+    /// The operation after a tool change begins at this position. `axes`: the axes that its rapids give, as bits.
+    fn begins_at(&mut self, first: &Place, axes: u8);
     /// The tool goes home. At home the tool's position is unknown. `length`: the tool's length register.
     fn home(&mut self, length: Option<f64>);
     /// A tool of the job has this name. The program may call the tool by its name.

@@ -24,6 +24,9 @@ pub(super) struct Leg {
     home: bool,
     /// Whether the leg begins where the job changes the tool.
     pub loads: bool,
+    /// The first position of the operation that begins with this leg, and its axes as bits. A tool change may go to this
+    /// position, although several rapids give it.
+    pub first: Option<(Place, u8)>,
     /// Length registers that were active while the tool moved to known heights. For a job: the tool's length register.
     pub lengths: Vec<Option<f64>>,
 }
@@ -62,6 +65,22 @@ pub(super) struct Standing {
     pub height: f64,
     /// Whether the tool is still at the end of the last cut, and this cut did not go up.
     pub in_cut: bool,
+}
+
+impl Leg {
+    /// The rapids of this leg, for a tool change that goes to the first position of the operation: the axes that no rapid
+    /// has given yet are at this position. `None`: the first rapid gives all axes of this position.
+    pub fn by_first(&self, rapids: &[Rapid]) -> Option<Vec<Rapid>> {
+        let (first, axes) = self.first?;
+        let filled = |rapid: &Rapid| {
+            let mut to = rapid.to;
+            for axis in (0..to.len()).filter(|axis| rapid.unknown & axes & 1 << axis != 0) {
+                to[axis] = first[axis];
+            }
+            Rapid { to, unknown: rapid.unknown & !axes, ..*rapid }
+        };
+        rapids.iter().any(|rapid| rapid.unknown & axes != 0).then(|| rapids.iter().map(filled).collect())
+    }
 }
 
 /// Everything between two cuts.
@@ -145,7 +164,7 @@ impl Passage {
             self.legs.truncate(1);
         }
         if let Some(leg) = self.legs.first_mut() {
-            (leg.from, leg.home) = (0, false);
+            (leg.from, leg.home, leg.first) = (0, false, None);
             leg.lengths.clear();
         }
         (self.aside, self.left_aside) = (false, false);
@@ -226,7 +245,7 @@ impl Passage {
             self.left_aside = std::mem::take(&mut self.aside);
         }
         let frame = self.legs.last().map_or_else(Frame::default, |leg| leg.frame);
-        self.legs.push(Leg { frame, from: self.rapids.len(), home: true, loads: false, lengths: vec![length] });
+        self.legs.push(Leg { frame, from: self.rapids.len(), home: true, lengths: vec![length], ..Leg::default() });
     }
 
     /// Whether the tool was sent home.
@@ -320,6 +339,12 @@ impl Passage {
     /// The rapids after the last change of the frame.
     pub fn arriving(&self) -> &[Rapid] {
         &self.rapids[self.legs.last().map_or(0, |leg| leg.from)..]
+    }
+
+    /// The rapids after the last change of the frame, for a tool change that goes to the first position of the operation.
+    /// `None`: this position is the end of the first rapid.
+    pub fn arriving_by_first(&self) -> Option<Vec<Rapid>> {
+        self.legs.last().and_then(|leg| leg.by_first(self.arriving()))
     }
 
     /// A mark for an action at the tool's current position.

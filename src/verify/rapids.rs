@@ -79,14 +79,24 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     let passage = &s.program.passage;
     // after a change of tool or work offset, the path may begin anywhere
     let both = lost && changed;
-    job.set(if lost { None } else { s.job.start }, s.job.arriving(), tolerance);
-    program.set(
-        if both { None } else { passage.start },
-        if both { passage.arriving() } else { &passage.rapids },
-        tolerance,
-    );
     let known = !lost && passage.start.is_some_and(|start| start.unknown == 0);
-    match compare_way(job, program, known, tolerance) {
+    let mut compared = |own: &[Rapid]| {
+        job.set(if lost { None } else { s.job.start }, own, tolerance);
+        program.set(
+            if both { None } else { passage.start },
+            if both { passage.arriving() } else { &passage.rapids },
+            tolerance,
+        );
+        compare_way(job, program, known, tolerance)
+    };
+    let is_good = |way: &Compared| !matches!(way, Compared::Lower(_) | Compared::Elsewhere(_));
+    let mut way = compared(s.job.arriving());
+    if !is_good(&way)
+        && let Some(own) = s.job.arriving_by_first()
+    {
+        way = Some(compared(&own)).filter(is_good).unwrap_or(way);
+    }
+    match way {
         Compared::Same => {}
         Compared::AsGood { step_by_step } if step_by_step || !s.job.aside => {
             s.report.allowed.ways += u64::from(known);
@@ -367,12 +377,9 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let mut low = None;
     for (leg, rapids) in inner.iter().filter(|(leg, _)| !leg.lengths.is_empty()) {
         let same_frame = |frame: &Frame| frame.work == leg.frame.work && (!tools || frame.tool == leg.frame.tool);
-        let own: Vec<&[Rapid]> = s
-            .job
-            .legs()
-            .filter(|(own, rapids)| same_frame(&own.frame) && !rapids.is_empty())
-            .map(|(_, rapids)| rapids)
-            .collect();
+        let own_legs: Vec<_> =
+            s.job.legs().filter(|(own, rapids)| same_frame(&own.frame) && !rapids.is_empty()).collect();
+        let own: Vec<&[Rapid]> = own_legs.iter().map(|(_, rapids)| *rapids).collect();
         if own.is_empty() {
             // the job has no move with this tool in this work offset, so no height is allowed
             let known = rapids.iter().find(|rapid| rapid.unknown & 0b100 == 0);
@@ -380,9 +387,11 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
             continue;
         }
         let all = own.concat();
+        let by_first: Vec<_> = own_legs.iter().filter_map(|(leg, rapids)| leg.by_first(rapids)).collect();
         let [job, program] = &mut s.ways;
         let mut lower = None;
-        let as_good = own.iter().copied().chain([all.as_slice()]).any(|own| {
+        let others = [all.as_slice()].into_iter().chain(by_first.iter().map(Vec::as_slice));
+        let as_good = own.iter().copied().chain(others).any(|own| {
             job.set(None, own, tolerance);
             program.set(None, rapids, tolerance);
             match compare_way(job, program, false, tolerance) {

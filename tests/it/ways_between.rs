@@ -267,3 +267,35 @@ fn a_machine_position_is_left_and_reached_above_the_last_cut() {
         }
     }
 }
+
+/// Several rapids give the first position of a tool, and a height comes before X or Y. The tool change goes to the combined
+/// position. A program that goes down at another position, or lower, is still found.
+#[test]
+fn the_first_position_of_a_tool_may_come_in_parts() {
+    let post = haas();
+    for (path, blocks, wrong) in [
+        ("[20,null,5] [5] [5,5,20]", "X20. Y5.\nS1000 M3\nG43 H1 Z5. M9\nG0 X5.\nZ20.\n", "X5.\n=>X5. Z4.\n"),
+        (
+            "[null,null,20] [null,10] [null,null,2] [20,20]",
+            "X20. Y10.\nS1000 M3\nG43 H1 Z20. M9\nG0 Z2.\nY20.\n",
+            "Z2.\n=>Y15.\nZ2.\n",
+        ),
+        ("[null,null,2] [null,20,2] [5,0,20]", "X5. Y20.\nS1000 M3\nG43 H1 Z2. M9\nG0 Y0 Z20.\n", "Z2.=>Z1."),
+        // the second rapid replaces the first one, but X stays that of the first one
+        ("[10,0] [null,10,2]", "X10. Y10.\nS1000 M3\nG43 H1 Z2. M9\n", "Z2.=>Z1.\nZ2."),
+    ] {
+        let rapids: Vec<String> = path.split(' ').map(|to| format!(r#"{{"rapid":{to}}}"#)).collect();
+        let end = r#"{"line":[9,9,-1]},{"rapid":[9,9,20]}"#;
+        let job = format!(
+            r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1}}],"operations":[{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":100,"path":[{},{end}]}}]}}"#,
+            rapids.join(",")
+        );
+        let program = printed(&post, &job);
+        assert!(program.contains(blocks), "{path}: {program}");
+        let (from, to) = wrong.split_once("=>").unwrap();
+        let low = program.replace(blocks, &blocks.replacen(from, to, 1));
+        assert_ne!(low, program);
+        let verdict = post.verify(Job::json(&job), &low).unwrap();
+        assert!(matches!(verdict, Verdict::Different(_)), "{path}: {verdict}\n{low}");
+    }
+}

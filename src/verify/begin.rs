@@ -33,7 +33,8 @@ pub(super) fn meet(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Don
     };
     pauses::compare(s);
     wire::compare(s, found.line);
-    rapids::compare(s, found.line);
+    let goes_down = hole.is_some() || cut.end()[DEPTH] < cut.from[DEPTH] - s.limits.tolerance;
+    rapids::compare(s, goes_down, found.line);
     modal::compare(s, cut, &found, hole.is_some_and(|hole| hole.is_tap));
     s.slipped = None;
     Ok(Some(found))

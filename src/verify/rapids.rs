@@ -10,7 +10,7 @@ use super::passage::{Entry, Frame, Leg, Passage};
 use super::rapid_path::{turn_alike, turned_low};
 use super::sides::Sides;
 use super::tails::leaves_low;
-use super::ways::{Compared, Low, are_the_same, compare as compare_way, enters_hole, leaves_hole};
+use super::ways::{Compared, Low, are_the_same, arrives_at_depth, compare as compare_way, enters_hole, leaves_hole};
 use crate::diag::Code;
 use crate::lang::Machine;
 
@@ -47,8 +47,8 @@ fn compensated(s: &mut Sides<'_>, line: u64) {
     });
 }
 
-/// Compares the paths of job and program to the next cut.
-pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
+/// Compares the paths of job and program to the next cut. `goes_down`: whether the job's cut ends below its beginning.
+pub(super) fn compare(s: &mut Sides<'_>, goes_down: bool, line: u64) {
     let tolerance = s.limits.tolerance;
     if s.program.passage.rapids.is_empty() && s.job.rapids.is_empty() && !s.job.changed() {
         return;
@@ -95,6 +95,13 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         && let Some(own) = s.job.arriving_by_first()
     {
         way = Some(compared(&own)).filter(is_good).unwrap_or(way);
+    }
+    let arrives = both && !goes_down && is_good(&way);
+    if arrives && let Some(to) = arrives_at_depth(&job.corners, &program.corners, tolerance) {
+        s.found(Code::PV009, line, "print X and Y before the height", || {
+            format!("a rapid across goes to {}, at the depth of the next cut", to.text())
+        });
+        return;
     }
     match way {
         Compared::Same => {}

@@ -61,7 +61,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
             // the approach from a position outside of the thread
             s.job.rapids.push(from);
             super::pauses::compare(s);
-            super::rapids::compare(s, found.line);
+            super::rapids::compare(s, true, found.line);
         } else {
             between(s, thread, from, found.line)?;
         }

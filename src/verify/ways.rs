@@ -215,6 +215,17 @@ pub(super) fn low_at_machine<'a>(job: &[Rapid], program: &'a [Rapid], tolerance:
     across(program, tolerance).find(is_low).map(|(a, b)| (b, height(a, b)))
 }
 
+/// The end of the program's first rapid across, after a change of tool or work offset, that is at the depth of a cut which
+/// does not go down: the job comes to its first position at this depth, and stays there until the cut. The part may be
+/// anywhere beside this position, so only the job's own rapids may be that low.
+pub(super) fn arrives_at_depth(job: &[Rapid], program: &[Rapid], tolerance: f64) -> Option<Rapid> {
+    let depth = job.last().map(Rapid::height).filter(|height| height.is_finite())?;
+    let low =
+        |(a, b): &(&Rapid, &Rapid)| a.height().min(b.height()) <= depth + tolerance && !is_over(a, b, job, tolerance);
+    let stays = highest(job) <= depth + tolerance;
+    across(program, ROUNDED_ACROSS * tolerance).find(low).filter(|_| stays).map(|(_, to)| *to)
+}
+
 /// Compares two lists of corners. `start`: the number of corners at the start of the program's path that are the end of
 /// the program's last cut.
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {

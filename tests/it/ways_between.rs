@@ -299,3 +299,36 @@ fn the_first_position_of_a_tool_may_come_in_parts() {
         assert!(matches!(verdict, Verdict::Different(_)), "{path}: {verdict}\n{low}");
     }
 }
+
+/// A tool comes to its first cut at the depth of this cut. The tool change may be at any machine position, so the program
+/// must be over the first position before it goes down. A cut that goes down begins at a clearance height, where a rapid may
+/// move across.
+#[test]
+fn a_tool_comes_down_over_a_cut_that_begins_at_its_depth() {
+    let post = haas();
+    let right = "G0 G90 G54 X10. Y20.\nS1000 M3\nG43 H2 Z-2. M9\n";
+    for (cut, found) in [
+        (r#"{"line":[30,20,-2]}"#, Some("PV009 a rapid across goes to X10 Y20 Z-2, at the depth of the next cut")),
+        (r#"{"line":[30,20,-3]}"#, None),
+    ] {
+        let job = format!(
+            r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1}},{{"number":2}}],"operations":[
+{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":100,"path":[{{"rapid":[0,0,20]}},{{"line":[0,0,-5]}},{{"rapid":[0,0,20]}}]}},
+{{"tool":2,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":100,"path":[{{"rapid":[10,20,-2]}},{cut},{{"rapid":[30,20,20]}}]}}]}}"#
+        );
+        let program = printed(&post, &job);
+        assert!(program.contains(right), "{program}");
+        for between in [
+            "S1000 M3\nG0 G90 G53 X0 Y0\nG43 H2 Z50. M9\nX10. Y20. Z-2.\n",
+            "S1000 M3\nG0 G90 G53 X0 Y0\nG43 H2 Z-2. M9\nX10. Y20.\n",
+            "S1000 M3\nG0 G90 X0 Y0\nG43 H2 Z50. M9\nX10. Y20. Z-2.\n",
+        ] {
+            let slanted = program.replacen(right, between, 1);
+            let message = match post.verify(Job::json(&job), &slanted).unwrap() {
+                Verdict::Different(findings) => findings.first().map(|at| format!("{} {}", at.code.name(), at.message)),
+                _ => None,
+            };
+            assert_eq!(message.as_deref(), found, "{between}");
+        }
+    }
+}

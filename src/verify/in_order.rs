@@ -2,7 +2,6 @@
 //! tool must go to the same positions in the same order.
 
 use super::cut::{ALL, DEPTH, RADIUS, Rapid, lies_between, same, shown};
-use crate::control::Control;
 use crate::lang::Machine;
 
 /// The coordinates X, Y and Z, as bits.
@@ -34,15 +33,6 @@ impl InOrder {
             Machine::Lathe => Some(InOrder { axes: 1 << RADIUS | 1 << DEPTH, may_round: true }),
             Machine::Edm => Some(InOrder { axes: 0b011, may_round: false }),
         }
-    }
-
-    /// The rule of a program's control.
-    pub fn of_control(control: &Control) -> Option<InOrder> {
-        InOrder::of(match (control.is_lathe(), control.is_wire()) {
-            (true, _) => Machine::Lathe,
-            (_, true) => Machine::Edm,
-            _ => Machine::Mill,
-        })
     }
 
     /// A corner in a message: its known axes.

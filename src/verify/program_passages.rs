@@ -7,6 +7,7 @@ use super::passage::Standing;
 use super::program::Program;
 use super::program_cuts::{Names, both_shown};
 use super::tables::ANGLE;
+use crate::lang::Machine;
 use crate::toolpath::StopKind;
 
 /// The first difference between two cuts, apart from the rapids and the rotation of the spindle.
@@ -248,7 +249,7 @@ fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
 /// Checks that the new program moves home each axis that the old program moves home. Only Z is checked, on a lathe X
 /// and Z. If the controls have different languages, the check is left out.
 fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
-    let counts = if old.control().is_lathe() { 0b101 } else { 0b100 };
+    let counts = if old.machine() == Machine::Lathe { 0b101 } else { 0b100 };
     let lost = old.passage.homes & !new.passage.homes & counts;
     let axes: Vec<String> = ["X", "Y", "Z"]
         .iter()

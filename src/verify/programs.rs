@@ -17,6 +17,7 @@ use super::rapid_path::{RapidPath, highest, turn_alike, turned_low};
 use super::strokes::{lost, retracts_instead};
 use super::tails::leaves_low;
 use super::ways::{Compared, compare};
+use crate::lang::Machine;
 use crate::nc::{RunError, RunSettings};
 use crate::toolpath::Units;
 
@@ -77,10 +78,9 @@ pub fn compare_motions(
     });
     b.share_tool_names(&a);
     let names = Names::of(a.control(), b.control());
-    let in_order = InOrder::of_control(a.control());
     let ways = [RapidPath::default(), RapidPath::default()];
     let mut pair =
-        Pair { a, b, names, tolerance, in_order, ways, before: [None, None], begun: None, motions: Motions::default() };
+        Pair { a, b, names, tolerance, ways, before: [None, None], begun: None, motions: Motions::default() };
     pair.compare()?;
     Ok(Motions { has_slash: pair.a.has_slash() || pair.b.has_slash(), ..pair.motions })
 }
@@ -93,8 +93,6 @@ struct Pair<'a> {
     b: Program<'a>,
     names: Names,
     tolerance: f64,
-    /// The rule for rapids if the machine is not a mill.
-    in_order: Option<InOrder>,
     /// The rapids of both programs since the last cut.
     ways: [RapidPath; 2],
     /// The frames of both programs at the last cut.
@@ -202,6 +200,14 @@ impl Pair<'_> {
         None
     }
 
+    /// The rule for the rapids since the last cut, if the machine is not a mill.
+    fn in_order(&self) -> Option<InOrder> {
+        InOrder::of(match self.a.machine() {
+            Machine::Lathe if self.b.machine() != Machine::Lathe => Machine::Mill,
+            machine => machine,
+        })
+    }
+
     /// The first corner of the new path that is not on the old path, on a lathe or a wire EDM machine.
     fn astray(&self, rule: InOrder) -> Option<Rapid> {
         let known = self.ways.iter().all(|way| way.corners.first().is_none_or(|start| rule.is_known(start)));
@@ -217,7 +223,7 @@ impl Pair<'_> {
         if left.is(right, self.tolerance) && turn_alike(&left.corners, &right.corners) {
             return Compared::Same;
         }
-        if let Some(rule) = self.in_order {
+        if let Some(rule) = self.in_order() {
             return self.astray(rule).map_or(Compared::AsGood { step_by_step: true }, Compared::Elsewhere);
         }
         let [left, right] = &mut self.ways;
@@ -252,7 +258,7 @@ impl Pair<'_> {
         let alike = same_way && turn_alike(&self.ways[0].corners, &self.ways[1].corners);
         self.motions.ways += u64::from(!same_way);
         let elsewhere =
-            || !alike && self.in_order.map_or_else(|| low(0, 1) || low(1, 0), |rule| self.astray(rule).is_some());
+            || !alike && self.in_order().map_or_else(|| low(0, 1) || low(1, 0), |rule| self.astray(rule).is_some());
         between(&self.a, &self.b, self.names, self.tolerance)
             .or_else(|| leaving(&self.a, &self.b, self.names))
             .or_else(|| self.frames(false))

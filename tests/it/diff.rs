@@ -494,6 +494,7 @@ fn motions_differ_after_the_last_cut() {
 
 /// On a lathe, a rapid can meet the part from every direction. The tool must go to the same positions in the same order,
 /// also next to the home position. Two rapids may replace a slanted rapid, with the corner at the greater Z.
+/// LinuxCNC has no control file of its own for lathes.
 #[test]
 fn motions_of_lathes_follow_the_same_path() {
     let part = |[enter, leave, end]: [&str; 3]| {
@@ -509,7 +510,10 @@ fn motions_of_lathes_follow_the_same_path() {
             parts[index] = text;
             part(parts)
         };
-        difference("haas-lathe", [old, new].map(with)).unwrap_or("none".to_owned())
+        let linuxcnc = |text| with(text).replace("G99", "G95 G7").replace("T0101", "T1 M6");
+        let found = difference("haas-lathe", [old, new].map(with));
+        assert_eq!(difference("linuxcnc", [old, new].map(linuxcnc)), found, "{old:?} -> {new:?}");
+        found.unwrap_or("none".to_owned())
     };
     let [enter, leave, end] = OLD;
     for (index, old, new, found) in [

@@ -29,7 +29,7 @@ use super::unset::Due;
 use super::wire_codes::Codes;
 use crate::control::{self, Control, Kept, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::Coolant;
+use crate::lang::{Coolant, Machine};
 use crate::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
 
@@ -172,6 +172,18 @@ impl<'a> Program<'a> {
         self.simulator.is_of_wire();
         self.control = self.control.of_wire();
         self.begins(0b011);
+    }
+
+    /// The machine that runs the program, as far as the program up to here shows. A control without a control file for
+    /// lathes, such as LinuxCNC, runs mills and lathes: a program of a lathe never gives Y.
+    pub fn machine(&self) -> Machine {
+        let has_no_y = |at: &Rapid| at.unknown & 0b010 != 0;
+        let turns = || has_no_y(&self.start()) && self.passage.rapids.iter().all(has_no_y);
+        match self.control {
+            control if control.is_wire() => Machine::Edm,
+            control if control.is_lathe() || turns() => Machine::Lathe,
+            _ => Machine::Mill,
+        }
     }
 
     /// Sets the start of the program to a position that is known only at the machine. `unknown`: the axes whose

@@ -161,20 +161,51 @@ fn motions_feeds_and_switches_stay_what_they_were() {
     }
 }
 
-/// Stops are kept, even where a feed mode changes. If the tool moved home before a stop in the old program, it moves up
-/// before the stop in the new program.
+/// Stops are kept, even where a feed mode changes.
 #[test]
-fn stops_and_the_way_before_them_stay() {
+fn stops_stay() {
     let lines = path("G81 X1. Z-1. R.1 F5.\nG80 G94\nM1\nG81 X2. Z-1. R.1");
     assert!(lines.contains(&"M1".to_owned()), "{lines:?}");
     let (text, _) =
         printed(&format!("{HEAD}G95 G81 X1. Z-1. R.1 F.05\nG80 G94\nM0\nM3\nG81 X2. Z-1. R.1 F5.\nG80\nM30\n"))
             .unwrap();
     assert!(text.contains(" M0\n"), "{text}");
-    let (text, warnings) = printed(&format!("{HEAD}G0 Z3.\nZ1.\nG1 Z-.1 F5.\nG91 G28 Z0\nM0\nG90\nM30\n")).unwrap();
-    let (up, stop) = (text.find("G0 Z3.\n").unwrap(), text.find(" M0\n").unwrap());
-    assert!(text[up + 1..].contains("G0 Z3.") && up < stop, "{text}");
-    assert!(warnings.iter().any(|warning| warning.contains("reference point")), "{warnings:?}");
+}
+
+/// If the tool goes home before a stop, it also goes home before the stop in the new program: between the moves of a
+/// tool, before the next tool, and at the end.
+#[test]
+fn a_stop_at_home_stays_at_home() {
+    let cut = "G0 Z3.\nZ1.\nG1 Z-.1 F5.\nM9\nG91 G28 Z0\n";
+    let next = "G90\nT2 M6\nG0 X2. Y2. S500 M3\nG43 H2 Z1.\nG1 Z-.2 F6.\n";
+    let go_on = "G90 G0 X4. Y5.\nG43 H1 Z1. M3\nG1 Z-.3 F6.\n";
+    let across = "G90 G53 G0 Y0\nM0\nM5\nG90 G0 X4. Y5.\nM1\nG43 H1 Z1. M3\nG1 Z-.3 F6.\n";
+    let home = ["M9", "G0 G53 Z0"];
+    for (after, lines) in [
+        (format!("M1\n{next}"), &["M1", "M9", "G0 G53 Z0 M5", "T2 M6"][..]),
+        (format!("G4 P1000\nM1\n{next}"), &["G4 P1.", "M1", "M9", "G0 G53 Z0 M5", "T2 M6"]),
+        ("M0\n".to_owned(), &["M0", "M9", "G0 G53 Z0 M5", "G53 Y0", "M30"]),
+        // across at the highest Z of the program, and then down
+        (format!("M1\n{go_on}"), &["M1", "S1000 M3", "X4. Y5. Z3.", "Z1.", "G1 Z-.3 F6."]),
+        // between the two stops, the tool moves across at home
+        (across.to_owned(), &["M0", "M5", "X4. Y5.", "M1", "S1000 M3", "Z3.", "Z1.", "G1 Z-.3 F6."]),
+    ] {
+        let (text, warnings) = printed(&format!("{HEAD}{cut}{after}M30\n")).unwrap();
+        let all: Vec<&str> = text.lines().map(|line| line.split_once(' ').map_or(line, |(_, rest)| rest)).collect();
+        let cut = all.iter().position(|line| *line == "G1 Z-.1 F5.").unwrap();
+        assert_eq!(all[cut + 1..][..2 + lines.len()], [&home[..], lines].concat(), "{text}");
+        assert!(warnings.iter().any(|warning| warning.contains("becomes the move home of the form")), "{warnings:?}");
+    }
+    // only the form knows its home position
+    let without = printed_by(&mill("", ""), &format!("{HEAD}{cut}M1\n{next}M30\n"));
+    assert_eq!(without.unwrap_err(), "PR008");
+    // a program that stops above the part is another program
+    let old = format!("{HEAD}{cut}M1\n{next}M30\n");
+    let swapped = old.replace("G91 G28 Z0\nM1\n", "M1\nG91 G28 Z0\n");
+    let verdict = |program: &str| verdict_of("fanuc", Job::nc(old.as_bytes()), program).unwrap();
+    assert!(verdict(&old).is_proven(), "{:?}", verdict(&old));
+    let Verdict::Different(findings) = verdict(&swapped) else { panic!("{:?}", verdict(&swapped)) };
+    assert_eq!(findings[0].code.name(), "PV019");
 }
 
 #[test]

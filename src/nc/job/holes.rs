@@ -85,9 +85,9 @@ impl Reader<'_> {
         self.end_cycle()?;
         // a new tool has already left the reference point at its tool change
         let new_tool = self.operation && self.tool_is_new();
-        if let Some(line) = self.home.take().filter(|_| !new_tool) {
+        if let Some(home) = self.home.take().filter(|_| !new_tool) {
             let message = "a cycle begins at an unknown height: at a machine position, or in another work offset";
-            return unsaid(line, message, "write a rapid with Z before the cycle");
+            return unsaid(home.line, message, "write a rapid with Z before the cycle");
         }
         let spec = spec_of(hole, self.rigid, self.place.line)?;
         self.rigid = false;

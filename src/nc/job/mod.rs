@@ -4,6 +4,7 @@ mod behind;
 mod cycles;
 mod fault;
 mod holes;
+mod home;
 mod moves;
 mod operations;
 mod options;

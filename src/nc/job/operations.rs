@@ -87,7 +87,12 @@ impl Reader<'_> {
 
     /// Adds events for everything that was switched since the last move.
     pub(super) fn switch(&mut self) -> Done {
-        let said = std::mem::replace(&mut self.said, self.wanted);
-        said.changes(self.wanted).try_for_each(|event| self.push(event))
+        self.switch_to(self.wanted)
+    }
+
+    /// Adds events for the difference between the switches of the job and these switches.
+    pub(super) fn switch_to(&mut self, wanted: Switches) -> Done {
+        let said = std::mem::replace(&mut self.said, wanted);
+        said.changes(wanted).try_for_each(|event| self.push(event))
     }
 }

@@ -22,6 +22,18 @@ pub(super) enum Waiting {
     Stop(StopKind),
 }
 
+/// A tool whose height is known only at the machine, because it moved to the reference point.
+#[derive(Clone, Copy)]
+pub(super) struct AtHome {
+    pub(super) line: u64,
+    /// The switches of the machine when the tool moved there.
+    pub(super) switches: Switches,
+    /// Whether the job contains the move home.
+    pub(super) is_said: bool,
+    /// X and Y of the tool in the job. `None`: unknown.
+    pub(super) across: Option<[f64; 2]>,
+}
+
 /// Maximum number of waiting items. Comments above this number are left out.
 pub(super) const MOST_WAITING: usize = 1000;
 
@@ -47,9 +59,8 @@ pub(super) struct Reader<'a> {
     counted: Position,
     /// Bit mask of the axes whose position in the job is known.
     pub(super) known: u8,
-    /// The line in which the tool moved to its reference point. `None`: the tool is not there, or another move has
-    /// followed.
-    pub(super) home: Option<u64>,
+    /// The move to the reference point. `None`: the tool is not there, or it has moved down since.
+    pub(super) home: Option<AtHome>,
     pub(super) cycle: Option<Pattern>,
     /// The moves of the current hole.
     pub(super) moves: Option<Moves>,
@@ -300,11 +311,11 @@ impl<'a> Reader<'a> {
         self.end_cycle()?;
         let used = self.used();
         let machine = machine & used;
-        // for a move to a machine position, no event is added: forms print it before a tool change and at the end
+        // a move to a machine position adds no event yet: forms print it before a tool change and at the end
         self.at = *to;
         if machine & 0b100 != 0 {
             self.known = used & !machine;
-            self.home.get_or_insert(self.place.line);
+            self.goes_home();
             return Ok(());
         }
         self.known = used & !machine;
@@ -313,10 +324,8 @@ impl<'a> Reader<'a> {
         }
         let axes = self.axes(to);
         let new_tool = self.operation && self.tool_is_new();
-        if let Some(line) = self.home.take().filter(|_| !new_tool) {
-            self.homeward(line, *to)?;
-            let across = Axes { values: *to, given: axes.given & !0b100 };
-            self.push(Event::Rapid(across))?;
+        if let Some(home) = self.home.take().filter(|_| !new_tool) {
+            self.move_above(home, axes)?;
         }
         self.move_begins(First::Rapid(axes))?;
         self.step();
@@ -333,20 +342,6 @@ impl<'a> Reader<'a> {
             (None, Some(_)) => self.push(Event::Line { to, feed }),
             (None, None) => self.push(Event::Rapid(to)),
         }
-    }
-
-    /// Replaces a move to the reference point, in the middle of an operation, by a rapid to the highest Z of the program.
-    fn homeward(&mut self, line: u64, to: Position) -> Done {
-        let message = "a job can't contain a move to the reference point";
-        let help = "the move becomes a rapid to the highest Z of the program: check that this height clears the clamps";
-        if !self.warnings.iter().any(|w| w.message == message) {
-            self.warnings.push(warning(line, message, help));
-        }
-        let mut above = Axes { values: to, given: 0b100 };
-        above.values[2] = self.survey.top;
-        self.move_begins(First::Rapid(above))?;
-        self.step();
-        self.push(Event::Rapid(above))
     }
 
     pub(super) fn step(&mut self) {
@@ -443,14 +438,7 @@ impl<'a> Reader<'a> {
                 _ => Ok(()),
             };
         }
-        if let Some(line) = self.home.take() {
-            // first adds the move home, because at this event the operator expects the tool there
-            self.homeward(line, self.at)?;
-            if self.known & 0b011 == 0b011 {
-                let axes = self.axes(&self.at);
-                self.push(Event::Rapid(Axes { given: axes.given & !0b100, ..axes }))?;
-            }
-        }
+        self.stay_home()?;
         self.move_begins(First::Nothing)?;
         self.step();
         self.push(event)

@@ -60,8 +60,11 @@ impl WorkWords {
 
     /// The first word of the form for this offset that the control supports, and the value of the word.
     pub fn way(&self, values: &dyn Values, control: &Control) -> Option<(&WorkWord, f64)> {
-        if let Some((word, value)) = values.number(VarId::Work).and_then(|work| self.more(work)) {
-            return word.has(value, control).then_some((word, value));
+        if let Some((row, value)) = values.number(VarId::Work).and_then(|work| self.row(work)) {
+            // a last number in `MoreWork` replaces the highest number that postform knows
+            let is_known =
+                row.last.is_some() || !row.word.is_additional(control) || value <= f64::from(WorkOffset::MOST);
+            return (is_known && row.word.has(value, control)).then_some((&row.word, value));
         }
         self.ways.iter().find_map(|way| {
             let value = match &way.calculated {
@@ -74,8 +77,17 @@ impl WorkWords {
 
     /// The word from `MoreWork` for this value of `[work]`, and the number in the word.
     pub fn more(&self, work: f64) -> Option<(&WorkWord, f64)> {
+        self.row(work).map(|(row, number)| (&row.word, number))
+    }
+
+    fn row(&self, work: f64) -> Option<(&MoreWords, f64)> {
         let row = self.more.iter().rfind(|row| row.from <= work && work.fract() == 0.0)?;
-        Some((&row.word, row.number + (work - row.from)))
+        Some((row, row.number + (work - row.from)))
+    }
+
+    /// Whether the form has a `MoreWork` command.
+    pub fn has_more(&self) -> bool {
+        !self.more.is_empty()
     }
 
     /// The last number of `MoreWork`, if the number of this value of `[work]` is greater.
@@ -120,7 +132,7 @@ impl WorkWord {
     /// Whether the control has this offset, as far as postform knows the offsets of the control.
     fn has(&self, value: f64, control: &Control) -> bool {
         match self.is_code {
-            true => Code::of(b'G', value).is_some_and(|code| control.group(code) == Some(Group::Work)),
+            true => Code::of(b'G', value).is_some_and(|code| control.selects_work(code)),
             false if self.is_parameter(control) => value >= 1.0 && value.fract() == 0.0,
             // for example, E19 on a control that has E1 to E18
             false => {

@@ -293,6 +293,17 @@ impl Control {
         !matches!(self.traits.rules, Rules::None | Rules::Klartext | Rules::Siemens)
     }
 
+    /// Whether the code selects a work offset without another word, as G54 does. G54.1 needs a P word.
+    pub fn selects_work(&self, code: Code) -> bool {
+        let by_word = |row: &Row| matches!(row.runs.work, Some(WorkOffset::Word(_) | WorkOffset::Counted(_)));
+        self.row(code).is_some_and(|row| row.meaning.group() == Some(Group::Work) && !by_word(row))
+    }
+
+    /// Whether the control's file lists all codes that select work offsets.
+    pub fn lists_work(&self) -> bool {
+        !matches!(self.traits.rules, Rules::None | Rules::Klartext)
+    }
+
     /// The code of the work offset that is active before a program selects a work offset; `None`: the control has no
     /// such work offset, or it is unknown.
     pub fn first_work(&self) -> Option<f64> {

@@ -14,6 +14,7 @@ mod defaults;
 mod dwell;
 mod fault;
 mod file_name;
+mod fixtures;
 mod form_sets;
 mod layout;
 mod more_coolants;

@@ -6,13 +6,14 @@ use std::sync::Arc;
 use super::ahead::{Item, default_work};
 use super::coolant::{codes, codes_of};
 use super::fault::{Done, fault};
+use super::fixtures::{fixtures, help_for_fixtures};
 use super::numbers::{ROUNDED, as_number, loses};
 use super::properties::Properties;
 use super::shape::Shape;
 use super::texts::Texts;
 use super::vars::Vars;
+use crate::control;
 use crate::control::Meaning;
-use crate::control::{self, Group};
 use crate::diag::Code;
 use crate::lang::{Machine, Origin, TextId, Unit, VARIABLES, VarId, work_code};
 use crate::number::quantise;
@@ -223,32 +224,41 @@ impl Want {
 
     /// Sets the work offset: a fixture number below 50, or a code; see [`work_code`].
     pub fn set_work(&mut self, work: f64, shape: &Shape) -> Done {
+        match self.code_of_work(work, shape) {
+            Ok(code) => {
+                self.set_condition(VarId::Work, code);
+                Ok(())
+            }
+            Err(message) => {
+                let printed = fixtures(|work| self.code_of_work(work, shape).is_ok());
+                fault(Code::PR037, message, help_for_fixtures(&printed, shape.program))
+            }
+        }
+    }
+
+    /// The form's code for a work offset of the job.
+    ///
+    /// # Errors
+    /// A message: the form does not print this offset.
+    fn code_of_work(&self, work: f64, shape: &Shape) -> Result<f64, String> {
         let settings = &shape.program.settings;
         let first = settings.work;
         let Some(code) = work_code(first, work) else {
-            let message = format!("the work offset {work} is a code, but this form counts its offsets from {first}");
-            return fault(Code::PR037, message, "give the number of the fixture, from 1, or a code from 54 to 59");
+            return Err(format!("the work offset {work} is a code, but this form counts its offsets from {first}"));
         };
         let words = &shape.program.work;
         if let Some(last) = words.beyond(code) {
-            let message = format!("the work offset {work} is after the last one of `MoreWork`, with the number {last}");
-            let help = "give another fixture; if the control has more offsets, write the number of the last one into \
-                `MoreWork`";
-            return fault(Code::PR037, message, help);
+            return Err(format!("the work offset {work} is after the last one of `MoreWork`, with the number {last}"));
         }
         let of_work = OfWork { work: code, properties: &self.properties };
         let is_said = match words.ways.is_empty() {
             true => !is_no_work(code, shape),
             false => words.way(&of_work, settings.codes()).is_some(),
         };
-        if !is_said && settings.machine == Machine::Mill && settings.control().prints_codes() {
-            let message = format!("the form has no word for the work offset {work}");
-            let help = "give a fixture number from 1 to 6, or a code as 59.1; or define more work offsets at the top \
-                of the form: `MoreWork 7 G54.1 P1`";
-            return fault(Code::PR037, message, help);
+        if !is_said && settings.machine == Machine::Mill && settings.control().lists_work() {
+            return Err(format!("the form has no word for the work offset {work}"));
         }
-        self.set_condition(VarId::Work, code);
-        Ok(())
+        Ok(code)
     }
 
     /// Clears speed and direction, as a tool change does. The limit becomes that of the whole job.
@@ -394,7 +404,7 @@ fn surface_scale(shape: &Shape) -> f64 {
 
 /// Whether the form's control has no work offset code with this number.
 pub fn is_no_work(number: f64, shape: &Shape) -> bool {
-    control::Code::of(b'G', number).and_then(|code| shape.group_of(code)) != Some(Group::Work)
+    !control::Code::of(b'G', number).is_some_and(|code| shape.program.settings.codes().selects_work(code))
 }
 
 /// A variable's value in program units.

@@ -597,6 +597,50 @@ fn fixture_numbers_end_where_work_offsets_do() {
     assert_eq!(path_lines("", "", "{\"work\":59.1},{\"rapid\":[1,0,1]}")[0], "G59.1");
 }
 
+/// If the form does not print a work offset of the job, the help gives the offsets that it prints. G54.1 P99 is the last
+/// one that is known of a Fanuc, and G599 the last one of a Siemens. A last number in `MoreWork` replaces this limit.
+#[test]
+fn the_help_of_a_work_offset_gives_the_range() {
+    let said = |form: &str, work: &str| {
+        let job = job("{\"line\":[1,0,0]}").replace("\"work\":54", &format!("\"work\":{work}"));
+        support::render(form, &job).err().map(|diag| diag.help.unwrap_or_default())
+    };
+    let more = "if the control has more offsets, write the number of the last one into `MoreWork`";
+    for (commands, work, help) in [
+        (
+            "",
+            "154",
+            "the work offsets 1 to 6, 54 to 59, 59.1 to 59.3: give one of these; or define further ones at the top of the form: `MoreWork 7 G54.1 P1`",
+        ),
+        (
+            "Control fanuc\nMoreWork 7 G54.1 P1",
+            "159",
+            &format!("the work offsets 1 to 49, 54 to 158: give one of these; {more}"),
+        ),
+        (
+            "MoreWork 7 G54.1 P1 48",
+            "108",
+            &format!("the work offsets 1 to 49, 54 to 107, 59.1 to 59.3: give one of these; {more}"),
+        ),
+        (
+            "Control linuxcnc",
+            "60",
+            "the work offsets 1 to 6, 54 to 59, 59.1 to 59.3: give one of these; or define further ones at the top of the form: `MoreWork 7 G59.1`",
+        ),
+        ("Control grbl", "7", "the work offsets 1 to 6, 54 to 59: give one of these"),
+        (
+            "Control siemens\nMoreWork 5 G505",
+            "200",
+            &format!("the work offsets 1 to 49, 54 to 152: give one of these; {more}"),
+        ),
+    ] {
+        let found = said(&mill(commands, ""), work);
+        assert_eq!(found, Some(format!("this form prints {help}")), "{commands}, {work}");
+    }
+    let (fanuc, own) = (mill("Control fanuc\nMoreWork 7 G54.1 P1", ""), mill("MoreWork 7 G54.1 P1 300", ""));
+    assert_eq!([said(&fanuc, "158"), said(&own, "200"), said(&own, "359")], [None, None, None]);
+}
+
 /// A tap turns the spindle in the tap's direction. Afterwards the spindle turns as before.
 #[test]
 fn a_tap_turns_the_spindle_its_own_way() {

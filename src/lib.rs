@@ -158,7 +158,7 @@ pub mod internals {
         pub use crate::post::{Part, sample_job, sample_program, shipped};
     }
     pub mod preflight {
-        pub use crate::preflight::{Fit, Fitted, JobTool, Times, preflight, preflight_by_block};
+        pub use crate::preflight::{Fit, Fitted, JobTool, Known, Times, preflight, preflight_by_block};
         pub use crate::stock::{Stock, StockCheck, check_stock};
     }
     pub mod render {

@@ -8,14 +8,15 @@ use super::Post;
 use super::options::{Options, Proof};
 use super::reading::read_for;
 use crate::compile;
-use crate::control::Control;
+use crate::control::{self, Control};
 use crate::diag::{Code, Diag, Findings};
 use crate::error::{Error, ErrorKind};
 use crate::job::{Format, Job};
 use crate::nc::{RunSettings, settings_for};
 use crate::number::Point;
 use crate::preflight::JobTool;
-use crate::toolpath::{Event, Flow, Place, Sink, Units};
+use crate::render::coolant_codes;
+use crate::toolpath::{Coolant, Event, Flow, Place, Sink, Units};
 use crate::verify::{Batch, Comparer, Counts, Expectation, Finding, Outcome, Verdict, prove_beside};
 
 /// The result of a verification.
@@ -76,6 +77,15 @@ impl Post {
     #[doc(hidden)]
     pub fn job_tools(&self, job: Job<'_>) -> Result<Vec<JobTool>, Error> {
         tools_of(Some(&self.0.program), job)
+    }
+
+    /// The codes that turn on coolant in the form, with the kinds of coolant.
+    #[doc(hidden)]
+    pub fn coolant_codes(&self) -> Vec<(control::Code, Coolant)> {
+        let settings = &self.0.program.settings;
+        let kinds = [Coolant::FLOOD, Coolant::MIST].into_iter().chain(Coolant::FURTHER);
+        let code = |kind| Some((control::Code::of(b'M', coolant_codes(kind, settings)?.on)?, kind));
+        kinds.filter_map(code).collect()
     }
 
     /// Completes findings about the machine: adds the form line and the job item that printed the block of each finding.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::clock::Clock;
 use super::fit::Fit;
-use super::fitted::{Fitted, JobTool};
+use super::fitted::{Fitted, Known};
 use super::place::{At, Base, Going, Places};
 use super::travel::Travels;
 use crate::control::{Control, Meaning};
@@ -18,7 +18,7 @@ use crate::verify::Finding;
 pub(super) struct Check<'m> {
     pub(super) machine: &'m Machine,
     pub(super) control: &'static Control,
-    job: &'m [JobTool],
+    known: &'m Known,
     places: Places<'m>,
     travels: Travels<'m>,
     tool: Option<u32>,
@@ -40,11 +40,11 @@ pub(super) struct Check<'m> {
 }
 
 impl<'m> Check<'m> {
-    pub fn new(machine: &'m Machine, control: &'static Control, job: &'m [JobTool]) -> Check<'m> {
+    pub fn new(machine: &'m Machine, control: &'static Control, known: &'m Known) -> Check<'m> {
         Check {
             machine,
             control,
-            job,
+            known,
             places: Places::new(machine, control.is_lathe()),
             travels: Travels::new(machine),
             tool: None,
@@ -172,6 +172,12 @@ impl<'m> Check<'m> {
                 self.cools(*kind, line);
                 self.clocks(|clock, _| clock.stop());
             }
+            // the control's file gives no meaning to this code, but the form may use it for a kind of coolant
+            Action::LeftOut(code, _) => {
+                if let Some((_, kind)) = self.known.coolant.iter().find(|(own, _)| own == code) {
+                    self.cools(*kind, line);
+                }
+            }
             Action::SpeedLimit(limit) => self.turns(*limit, "the speed limit", line),
             Action::Spindle(rotation, speed) => {
                 let speed = self.pace.switched(*rotation, *speed);
@@ -190,7 +196,7 @@ impl<'m> Check<'m> {
                 continue;
             };
             let entry = self.tool.and_then(|tool| self.machine.tools.as_ref()?.0.get(&tool));
-            let of_job = self.tool.and_then(|tool| self.job.iter().find(|own| own.number == tool)?.diameter);
+            let of_job = self.tool.and_then(|tool| self.known.tools.iter().find(|own| own.number == tool)?.diameter);
             let diameter = entry.and_then(|entry| entry.diameter).or(of_job).unwrap_or(0.0);
             let length = entry.and_then(|entry| entry.length).unwrap_or(f64::INFINITY);
             if fixture.is_entered(&Sweep { from, to, radius: diameter / 2.0, length }) {
@@ -261,7 +267,7 @@ impl<'m> Check<'m> {
             return;
         }
         if let Some(table) = &self.machine.tools {
-            let of_job = self.job.iter().find(|tool| tool.number == number).and_then(|tool| tool.diameter);
+            let of_job = self.known.tools.iter().find(|tool| tool.number == number).and_then(|tool| tool.diameter);
             match table.0.get(&number) {
                 None => {
                     let (tool, help) = match name {
@@ -333,13 +339,13 @@ impl<'m> Check<'m> {
     fn cools(&mut self, kind: Coolant, line: (u64, &[u8])) {
         let Some(kinds) = &self.machine.coolant else { return };
         if kind != Coolant::OFF && !kinds.contains(&kind) {
-            let name = match kind {
-                Coolant::FLOOD => "flood coolant",
-                Coolant::THROUGH => "coolant through the spindle",
-                kind => kind.name(),
-            };
-            let message = format!("the program turns on {name}, but the machine does not have it");
-            self.found(Code::PM013, name, message, "print another kind of coolant", line);
+            let name = kind.name();
+            let listed: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+            let listed = if listed.is_empty() { "none".to_owned() } else { format!("only {}", listed.join(", ")) };
+            let message = format!("the program turns on the coolant `{name}`, but the machine's file lists {listed}");
+            let help = "if the machine has this kind, add it to `kinds` under [coolant] in the machine's file; otherwise \
+                        give another kind of coolant in the job";
+            self.found(Code::PM013, name, message, help, line);
         }
     }
 

@@ -2,8 +2,10 @@
 
 use super::clock::Times;
 use super::fit::Fit;
+use crate::control;
 use crate::diag::Severity;
 use crate::times::BlockTime;
+use crate::toolpath::Coolant;
 use crate::verify::Finding;
 
 /// The result of a check of a program on a machine.
@@ -31,6 +33,15 @@ impl Fitted {
     pub fn has_errors(&self) -> bool {
         self.findings.iter().any(|finding| finding.code.row().severity == Severity::Error)
     }
+}
+
+/// What the job and the form add to the program itself.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// The tools of the job.
+    pub tools: Vec<JobTool>,
+    /// The codes that turn on coolant in the form, with the kinds of coolant.
+    pub coolant: Vec<(control::Code, Coolant)>,
 }
 
 /// A tool of the job.

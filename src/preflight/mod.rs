@@ -16,5 +16,5 @@ mod travel;
 
 pub use clock::Times;
 pub use fit::Fit;
-pub use fitted::{Fitted, JobTool};
+pub use fitted::{Fitted, JobTool, Known};
 pub use run::{preflight, preflight_by_block};

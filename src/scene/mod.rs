@@ -29,7 +29,7 @@ use crate::machine::Machine;
 use crate::nc::RunSettings;
 use crate::picture::{Picture, draw};
 use crate::post::{Files, Options, Post, Program, Proof};
-use crate::preflight::preflight_by_block;
+use crate::preflight::{Known, preflight_by_block};
 use crate::sema::{Limits, analyse};
 use crate::source::{Source, text_of};
 use crate::terminal::escaped;
@@ -201,7 +201,8 @@ impl Printed {
     /// the page.
     pub fn fit(&self, job: Job<'_>, machine: &Machine) -> Scene {
         let tools = self.post.job_tools(job).unwrap_or_default();
-        match preflight_by_block(Cursor::new(self.text()), self.settings, machine, &tools) {
+        let known = Known { tools, coolant: self.post.coolant_codes() };
+        match preflight_by_block(Cursor::new(self.text()), self.settings, machine, &known) {
             Ok(fitted) => {
                 let control = self.settings.control;
                 let fit = fit::fit(&fitted, machine, control, self.program.trace(), self.post.files());

@@ -7,7 +7,7 @@ use crate::support::control;
 use crate::support::folder::{Folder, err, out};
 use postform::internals::machine::{Machine, read};
 use postform::internals::nc::{RunSettings, Unpointed};
-use postform::internals::preflight::{Fitted, preflight};
+use postform::internals::preflight::{Fitted, Known, preflight};
 use proptest::prelude::*;
 
 const VF2: &str = "name = \"VF-2\"\ncontrol = \"haas\"\n[axes.X]\ntravel = [-762, 0]\nfeed = 16500\n[axes.Y]\ntravel = [-406, 0]\n[axes.Z]\ntravel = [-508, 0]\n";
@@ -21,7 +21,7 @@ fn machine(text: &str) -> Machine {
 fn fitted(program: &str, machine: &Machine) -> Fitted {
     let mut settings = RunSettings::new(machine.control.unwrap_or_else(|| control("haas")));
     settings.unpointed = Unpointed::Whole;
-    preflight(Cursor::new(program), settings, machine, &[]).unwrap()
+    preflight(Cursor::new(program), settings, machine, &Known::default()).unwrap()
 }
 
 /// The findings: code, line, message.
@@ -175,7 +175,11 @@ fn feeds_speeds_tools_coolant_and_memory() {
         "[spindle]\nspeed = [30, 8100]\n",
         &["PM010 5 the spindle's speed is S9000, but the range of the machine is 30 to 8100"],
     );
-    finds("M8\nM7", "[coolant]\nkinds = [\"flood\"]\n", &["PM013 6 the program turns on mist"]);
+    finds(
+        "M8\nM7",
+        "[coolant]\nkinds = [\"flood\"]\n",
+        &["PM013 6 the program turns on the coolant `mist`, but the machine's file lists only flood"],
+    );
     let tools = format!("{VF2}[tools]\nplaces = 1\n");
     let program = "O12345\nT1 M6\nT2 M6\nM30\n";
     assert_eq!(found(program, &tools), ["PM012 3 the program uses more tools than the magazine has places: 1"]);
@@ -506,3 +510,27 @@ fn a_length_that_the_program_sets_is_not_the_one_of_the_table() {
     // the diameter, and the length of another tool
     finds("G10 L12 P5 R4.\nG43 H5 Z100.", "", &[]);
 }
+
+/// The form's own kinds of coolant are compared with the kinds of the machine, and the message gives the name that
+/// `kinds` needs. The control's file has no meaning for M83 of a Haas.
+#[test]
+fn coolant_of_the_form_is_checked() {
+    let folder = Folder::new("coolant-of-form");
+    let form = crate::support::root().join("postforms/haas.pf").display().to_string();
+    folder.write("air.json", AIR);
+    for (kinds, found) in [("\"flood\"", true), ("\"flood\", \"air\"", false)] {
+        folder.write("vf2.toml", &format!("control = \"haas\"\n[coolant]\nkinds = [{kinds}]\n"));
+        for command in ["render", "verify"] {
+            let done = folder.run(&[command, "air.json", "--form", &form, "--machine", "vf2.toml"]);
+            let text = out(&done) + &err(&done);
+            assert_eq!(text.contains("PM013"), found, "{text}");
+            let parts = ["the program turns on the coolant `air`", "add it to `kinds` under [coolant]"];
+            assert!(!found || parts.iter().all(|part| text.contains(part)), "{text}");
+            assert!(text.contains("fits into vf2.toml"), "{text}");
+        }
+    }
+}
+
+const AIR: &str = r#"{"postform": 1, "program": 1, "units": "mm", "tools": [{"number": 1, "diameter": 10}],
+ "operations": [{"tool": 1, "work": 54, "coolant": "air", "spindle": {"speed": 500, "direction": "cw"},
+  "path": [{"rapid": [0, 0, 20]}, {"line": [0, 0, 10], "feed": 100}, {"rapid": [0, 0, 20]}]}]}"#;

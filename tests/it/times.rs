@@ -11,7 +11,7 @@ use crate::support::folder::{Folder, out};
 use crate::support::root;
 use postform::internals::machine::{AxisRates, Corner, Planner, Rates, read};
 use postform::internals::nc::RunSettings;
-use postform::internals::preflight::{Times, preflight, preflight_by_block};
+use postform::internals::preflight::{Known, Times, preflight, preflight_by_block};
 use proptest::prelude::*;
 
 /// A router and a heavy machine. Each has an acceleration and a rapid rate for X and Y, then for Z.
@@ -28,14 +28,15 @@ fn machine([across, down]: [[f64; 2]; 2], more: &str) -> String {
 fn times(program: &str, file: &str) -> Times {
     let machine = read("m.toml", file, &|name| Err(format!("no {name}"))).unwrap_or_else(|wrong| panic!("{wrong}"));
     let control = machine.control.unwrap_or_else(|| control("grbl"));
-    preflight(Cursor::new(program), RunSettings::new(control), &machine, &[]).unwrap().times.unwrap()
+    preflight(Cursor::new(program), RunSettings::new(control), &machine, &Known::default()).unwrap().times.unwrap()
 }
 
 /// The times of blocks: line and seconds.
 fn block_times(program: &str, file: &str) -> Vec<(u32, f64)> {
     let machine = read("m.toml", file, &|name| Err(format!("no {name}"))).unwrap_or_else(|wrong| panic!("{wrong}"));
     let control = machine.control.unwrap_or_else(|| control("grbl"));
-    let fitted = preflight_by_block(Cursor::new(program), RunSettings::new(control), &machine, &[]).unwrap();
+    let fitted =
+        preflight_by_block(Cursor::new(program), RunSettings::new(control), &machine, &Known::default()).unwrap();
     fitted.block_times.into_iter().map(|block| (block.line, f64::from(block.seconds))).collect()
 }
 

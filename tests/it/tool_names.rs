@@ -6,7 +6,7 @@ use crate::support::folder::{Folder, err, out};
 use crate::support::{control, root};
 use postform::internals::machine;
 use postform::internals::nc::RunSettings;
-use postform::internals::preflight::preflight;
+use postform::internals::preflight::{Known, preflight};
 use postform::internals::verify::{Verdict, compare_motions};
 use postform::toolpath::Units;
 use postform::{Job, NoFiles, Options, Post, Source};
@@ -23,7 +23,8 @@ fn a_machine_finds_a_tool_by_its_name() {
              [offsets]\nG54 = [0, 0, -240]\n[tools.1]\nlength = 50\n[tools.7]\nlength = 230\nname = \"{name}\"\n"
         );
         let machine = machine::read("m.toml", &file, &|_| Err(String::new())).unwrap_or_else(|wrong| panic!("{wrong}"));
-        let fitted = preflight(Cursor::new(PROGRAM), RunSettings::new(control("siemens")), &machine, &[]).unwrap();
+        let fitted =
+            preflight(Cursor::new(PROGRAM), RunSettings::new(control("siemens")), &machine, &Known::default()).unwrap();
         fitted.findings.iter().map(|found| format!("{} {}", found.code.name(), found.message)).collect::<Vec<_>>()
     };
     // tool 7 is too long for Z20, tool 1 is not

@@ -6,7 +6,7 @@ use std::path::Path;
 use postform::diag::{Diag, Location, Severity};
 use postform::internals::machine::{self, Machine};
 use postform::internals::nc::{RunSettings, settings_for};
-use postform::internals::preflight::{Fitted, JobTool, Times, preflight};
+use postform::internals::preflight::{Fitted, Known, Times, preflight};
 use postform::internals::terminal::{escaped, escaped_lines};
 use postform::toolpath::Units;
 use postform::{Control, Finding, Job, Options, Post, Proof, Source};
@@ -59,8 +59,8 @@ pub struct Fitting<'a> {
     pub machine: &'a Machine,
     /// The settings for running the program.
     pub settings: RunSettings,
-    /// The job's tools, if there is a job.
-    pub tools: Vec<JobTool>,
+    /// What the job and the form add, if there is a job.
+    pub known: Known,
     /// The name of the program.
     pub program: &'a str,
 }
@@ -71,7 +71,7 @@ impl Fitting<'_> {
     /// # Errors
     /// The program can't be read.
     pub fn fitted(&self, program: impl Read + Seek) -> Result<Fitted, String> {
-        let fitted = preflight(program, self.settings, self.machine, &self.tools);
+        let fitted = preflight(program, self.settings, self.machine, &self.known);
         fitted.map_err(|error| io_message("read", Path::new(self.program), &error))
     }
 
@@ -171,7 +171,8 @@ pub fn of_post<'a>(
     let tools = if reads { post.job_tools(job.again()) } else { Ok(Vec::new()) };
     let tools = tools.map_err(|error| format!("error: the job can't be read again: {error}"))?;
     let settings = post.run_settings(proof, options.units.unwrap_or(Units::Mm));
-    let fitting = Fitting { machine, settings, tools, program: name };
+    let known = Known { tools, coolant: post.coolant_codes() };
+    let fitting = Fitting { machine, settings, known, program: name };
     let mut fitted = fitting.fitted(program)?;
     if again {
         // if this fails, the findings stay without locations
@@ -194,7 +195,7 @@ pub fn fit(args: &FitArgs, colour: bool) -> Result<Ending, String> {
     let settings = settings_for(&mut program, &args.program, control.settings(None, args.units.units()))
         .map_err(|error| io_message("read", &args.program, &error))?;
     let name = files::name(&args.program);
-    let fitting = Fitting { machine: &machine, settings, tools: Vec::new(), program: &name };
+    let fitting = Fitting { machine: &machine, settings, known: Known::default(), program: &name };
     let fitted = fitting.fitted(program)?;
     let text = match args.format {
         VerifyFormat::Text => {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use postform::diag::Severity;
 use postform::internals::nc::control_of_name;
 use postform::internals::post::Part;
+use postform::internals::preflight::Known;
 use postform::internals::verify::Verdict;
 use postform::toolpath::Units;
 use postform::{Error, Job, Proof, Proven};
@@ -163,7 +164,7 @@ fn tried(
             }
             None => {
                 let settings = control.settings(None, args.options.units.map_or(Units::Mm, UnitsArg::units));
-                let fitting = Fitting { machine, settings, tools: Vec::new(), program: &name };
+                let fitting = Fitting { machine, settings, known: Known::default(), program: &name };
                 (fitting.fitted(program)?, fitting)
             }
         };

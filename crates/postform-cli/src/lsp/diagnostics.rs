@@ -6,7 +6,7 @@ use gen_lsp_types as lsp;
 use postform::diag::{Diag, Location};
 use postform::internals::control::Control;
 use postform::internals::ide::program;
-use postform::internals::preflight::preflight;
+use postform::internals::preflight::{Known, preflight};
 use postform::{Finding, Job, RunSettings, Source, Unpointed};
 
 use super::convert::{diagnostic, line, range, trouble};
@@ -98,7 +98,7 @@ fn fits(text: &Text, control: &'static Control) -> Vec<lsp::Diagnostic> {
         Err(message) => return vec![trouble(&message, line(0))],
     };
     let settings = RunSettings { unpointed: Unpointed::Whole, ..RunSettings::new(control) };
-    let Ok(fitted) = preflight(Cursor::new(text.source.text.as_bytes()), settings, &machine, &[]) else {
+    let Ok(fitted) = preflight(Cursor::new(text.source.text.as_bytes()), settings, &machine, &Known::default()) else {
         return Vec::new();
     };
     let of = |finding: &Finding| {

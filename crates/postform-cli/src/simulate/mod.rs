@@ -9,6 +9,7 @@ use std::path::Path;
 use postform::diag::Diag;
 use postform::internals::control::Kept;
 use postform::internals::nc::{Action, RunError, RunSettings, Simulator, Tally, json_line, settings_for};
+use postform::internals::preflight::Known;
 use postform::toolpath::Units;
 
 use super::Ending;
@@ -89,7 +90,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
         }
     }
     let name = files::name(&args.program);
-    let fitting = |machine| Fitting { machine, settings, tools: Vec::new(), program: &name };
+    let fitting = |machine| Fitting { machine, settings, known: Known::default(), program: &name };
     let fitting = machine.as_ref().filter(|_| refused.is_empty()).map(fitting);
     let fitted = fitting.as_ref().map(|fitting| fitting.fitted(on_machine)).transpose()?;
     if args.dry {

@@ -142,6 +142,7 @@ codes! {
     PF443 Warning "the program ends too early"
     PF444 Warning "a sequence that ends the tool length"
     PF445 Warning "a tool change without a retract"
+    PF446 Warning "a rigid tap without its code"
     // PF5: modality
     PF501 Warning "a letter that is not modal, named as modal"
     PF502 Warning "a one-shot code, named as modal"

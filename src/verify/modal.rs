@@ -165,7 +165,8 @@ fn rigid([wanted, is]: [&State; 2], tap: bool, s: &Sides<'_>) -> Option<Differs>
     }
     let (help, message) = match taps_ahead(s.program.control()) {
         true => (
-            "print M29 S[speed] before the tap",
+            "print M29 S[speed] before the tap; if the cycle alone is rigid on this machine, write `rigid = true` into its row \
+             in a control file: `postform explain PF446` shows the row",
             "the job's tap is rigid, but the program has no M29 to synchronize feed and spindle",
         ),
         false => (

@@ -80,11 +80,13 @@ impl Job {
         let comes_out = kind == CycleKind::Deep || kind == CycleKind::Chipbreak && open.spec.times.is_some();
         let floats = open.spec.rigid == Some(false);
         let reverses = kind.is_tap() && !open.spec.norevr && !open.spec.rapout;
+        // if only the form calls its taps rigid, it knows whether a parameter of the control makes G84 rigid
+        let due = self.expectation.announces_taps || open.spec.rigid == Some(true);
         let rigid = open
             .spec
             .rigid
             .or(self.expectation.rigid_tap)
-            .filter(|rigid| reverses && (!rigid || self.expectation.announces_taps || !taps_ahead(self.control)));
+            .filter(|rigid| reverses && (!rigid || due || !taps_ahead(self.control)));
         let mut target = self.target(&hole.at);
         target.set(DEPTH, return_plane);
         let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();

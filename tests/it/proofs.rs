@@ -5,6 +5,7 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::program_commands::{postform, text};
+use crate::support::folder::{Folder, err, out};
 use crate::support::{check, control, job_options, plain_post, root};
 use crate::verify::{document, inches, post, rendered, verified};
 use postform::internals::compile::compile;
@@ -971,6 +972,36 @@ fn floating_taps_want_the_spindle_turning() {
         // with M29, or without it on a Haas, the control turns the spindle
         assert!(verdict(&haas, own, word).is_proven() && verdict(&text, "", word).is_proven());
     }
+}
+
+/// On a Fanuc, a parameter decides whether G84 alone is rigid. Lint reports a rigid tap without M29. The proof reports it
+/// if the job asks for a rigid tap, unless a control file says that G84 alone is rigid.
+#[test]
+fn a_rigid_tap_of_a_fanuc_needs_m29_or_a_control_file() {
+    let folder = Folder::new("rigid-without-code");
+    let page = fs::read_to_string(root().join("docs/rules/PF446.md")).unwrap();
+    let file = page.split_once("```toml\n").and_then(|(_, rest)| rest.split_once("```")).unwrap().0;
+    folder.write("my-fanuc.toml", file);
+    let form = plain_post("fanuc.pf").replace("M29 S[speed]\n", "").replace("Tap 2\n", "Tap 1\n");
+    folder.write("alone.pf", &form);
+    folder.write("own.pf", &form.replace("Control fanuc", "Control my-fanuc.toml"));
+    folder.write("floats.pf", &form.replace("RigidTap? Y", "RigidTap? N"));
+    let path = r#"{"rapid":[0,0,20]},{"cycle":{"kind":"tap","rigid":true,"depth":10,"clear":5,"feed":1000,"points":[[0,0,0]]}},{"rapid":[0,0,20]}"#;
+    folder.write("rigid.json", &one(path));
+    folder.write("silent.json", &one(&path.replace(r#""rigid":true,"#, "")));
+    let said = |form: &str, job: &str| {
+        let lint = out(&folder.run(&["lint", form]));
+        let verify = folder.run(&["verify", job, "--form", form]);
+        (lint.matches("the form's tap is rigid").count(), out(&verify) + &err(&verify))
+    };
+    let (lint, verdict) = said("alone.pf", "rigid.json");
+    assert!(lint == 2 && verdict.contains("PV011") && verdict.contains("has no M29"), "{lint} {verdict}");
+    let (lint, verdict) = said("alone.pf", "silent.json");
+    assert!(lint == 2 && verdict.contains("identical"), "{lint} {verdict}");
+    let (lint, verdict) = said("own.pf", "rigid.json");
+    assert!(lint == 0 && verdict.contains("identical"), "{lint} {verdict}");
+    let (lint, refusal) = said("floats.pf", "rigid.json");
+    assert!(lint == 0 && refusal.contains("PC021") && refusal.contains("print `M29 S[speed]`"), "{lint} {refusal}");
 }
 
 /// If the control pecks a tap, the tap ends with the cycle. A feed move up after the cycle is the next cut.

@@ -80,6 +80,7 @@ mod rapid_that_feeds;
 mod rapid_to_bottom;
 mod replace_number;
 mod return_without_g91;
+mod rigid_without_code;
 mod second_m_code;
 mod small_letter;
 mod spindle_before_change;
@@ -229,6 +230,7 @@ rules! {
     PF443 ends_too_early (codes)
     PF444 length_lost (codes)
     PF445 change_without_retract (codes)
+    PF446 rigid_without_code (codes)
     // modality
     PF501 modal_letters (codes)
     PF502 modal_codes (codes)

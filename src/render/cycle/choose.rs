@@ -2,7 +2,7 @@
 
 use super::open::is_rigid;
 use crate::compile::{CycleStyle, Routine};
-use crate::control;
+use crate::control::{self, Meaning};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::fault::{Done, fault};
@@ -37,11 +37,18 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
     let floats = |routine: &Routine| !program.settings.rigid_tap && !routine.asks(VarId::Rigid, program);
     if rigid && spec.rigid == Some(true) && candidate.and_then(|id| program.routine(id)).is_some_and(floats) {
         let message = "a rigid tap, but the form's tap is for a floating holder";
-        return fault(
-            Code::PC021,
-            message,
-            "write `RigidTap? Y` in the form if its tap is rigid, or test `@if [rigid]` in the Tap sequence",
-        );
+        let codes = program.settings.codes();
+        let ahead = codes.rows().find(|row| row.meaning == Meaning::RigidAhead).map(|row| row.code);
+        let help = match ahead {
+            Some(code) => format!(
+                "print `{code} S[speed]` on its own line before the cycle in the Tap sequence, and write `RigidTap? Y` in \
+                 the form; if the form prints both kinds of taps, print {code} in `@if [rigid]`"
+            ),
+            None => {
+                "write `RigidTap? Y` in the form if its tap is rigid, or test `@if [rigid]` in the Tap sequence".into()
+            }
+        };
+        return fault(Code::PC021, message, help);
     }
     let why = match candidate.and_then(|id| program.routine(id).map(|routine| (id, routine))) {
         Some((id, routine)) => match cannot_say(spec, routine, shape) {

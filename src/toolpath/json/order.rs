@@ -158,27 +158,39 @@ impl<R: Read> Scan<R> {
         Ok(is_next)
     }
 
-    /// Reads a string as written, cut to a length that is sufficient for keys. `None`: there is no string.
+    /// Reads a string, cut to a length that is sufficient for keys. `None`: there is no string.
     fn string(&mut self) -> io::Result<Option<Vec<u8>>> {
-        const LONGEST: usize = 64;
+        // `subprograms`, with each letter written as an escape of six bytes
+        const LONGEST: usize = 6 * "subprograms".len() + 2;
         if !self.takes(b'"')? {
             return Ok(None);
         }
-        let mut text = Vec::new();
+        let (mut text, mut has_escapes) = (vec![b'"'], false);
         loop {
-            match self.next {
-                None => return Ok(None),
-                Some(b'"') => break,
-                Some(b'\\') => {
-                    self.pass()?;
-                    text.push(b'\\'); // no key of a job contains a backslash
-                }
-                Some(byte) if text.len() < LONGEST => text.push(byte),
-                Some(_) => {}
-            }
+            let Some(byte) = self.next else { return Ok(None) };
             self.pass()?;
+            if text.len() < LONGEST {
+                text.push(byte);
+            }
+            match (byte, self.next) {
+                (b'"', _) => break,
+                (b'\\', None) => return Ok(None),
+                (b'\\', Some(escaped)) => {
+                    has_escapes = true;
+                    self.pass()?;
+                    if text.len() < LONGEST {
+                        text.push(escaped);
+                    }
+                }
+                _ => {}
+            }
         }
-        self.pass()?;
+        if has_escapes {
+            // a string that was cut is not a key of a job
+            return Ok(Some(serde_json::from_slice::<String>(&text).unwrap_or_default().into_bytes()));
+        }
+        text.remove(0);
+        text.pop();
         Ok(Some(text))
     }
 
@@ -384,6 +396,18 @@ mod tests {
             reordered(r#"{"operations": [{"path": [], "tool": 1}], "subprograms": [{"number": 1, "path": []}]}"#)
                 .unwrap(),
             r#"{"subprograms": [{"number": 1, "path": []}],"operations": [{"tool": 1,"path": []}]}"#
+        );
+    }
+
+    /// In JSON, `"p\u0061th"` is the key `path`.
+    #[test]
+    fn keys_may_have_escapes() {
+        let path: String = "path".bytes().map(|byte| format!("\\u00{byte:x}")).collect();
+        let last: String = "subprograms".bytes().map(|byte| format!("\\u00{byte:X}")).collect();
+        let list = format!(r#""operation\u0073": [{{"{path}": ["\\\"]"], "tool": 1}}]"#);
+        assert_eq!(
+            reordered(&format!(r#"{{{list}, "{last}": [], "a\\\"": 1}}"#)).unwrap(),
+            format!(r#"{{"a\\\"": 1,"{last}": [],"operation\u0073": [{{"tool": 1,"{path}": ["\\\"]"]}}]}}"#)
         );
     }
 

@@ -499,3 +499,27 @@ fn settings_near_the_job_and_near_the_form_both_apply() {
         assert!(said.contains("did you mean `lift`?"), "{said}");
     }
 }
+
+/// `--job` belongs to `--unsafe-fixes`. Without it, the message names the commands that read a job.
+#[test]
+fn a_job_without_fixes_names_the_other_commands() {
+    let folder = Folder::new("lint-job");
+    let fixes = "`postform lint --unsafe-fixes --job part.json";
+    for (arguments, form) in [
+        (&["--job", "part.json"][..], "FORM"),
+        (&["--job", "part.json", "my.pf"], "my.pf"),
+        (&["--job", "part.json", "--unsafe-fixes"], "FORM"),
+    ] {
+        let done = folder.run(&[&["lint"], arguments].concat());
+        let text = err(&done);
+        assert_eq!(done.status.code(), Some(2), "{text}");
+        let verify = format!("`postform verify part.json --form {form}` prints");
+        assert!(
+            ["`postform check part.json` checks the job", &verify, fixes].iter().all(|part| text.contains(part)),
+            "{text}"
+        );
+    }
+    // without --job, a form is still required
+    let done = folder.run(&["lint"]);
+    assert!(done.status.code() == Some(2) && err(&done).contains("<FORM>"), "{}", err(&done));
+}

@@ -46,7 +46,7 @@ pub enum Format {
 #[derive(Debug, Args)]
 pub struct LintArgs {
     /// Forms, folders of forms, or - for standard input
-    #[arg(required = true, value_name = "FORM")]
+    #[arg(required_unless_present = "job", value_name = "FORM")]
     pub forms: Vec<PathBuf>,
     /// Apply all fixes that do not change the program
     #[arg(long)]
@@ -55,7 +55,7 @@ pub struct LintArgs {
     #[arg(long)]
     pub unsafe_fixes: bool,
     /// The job for which --unsafe-fixes shows the change of the program [default: a sample job for the form's machine]
-    #[arg(long, value_name = "JOB", requires = "unsafe_fixes")]
+    #[arg(long, value_name = "JOB")]
     pub job: Option<PathBuf>,
     /// Output format of the findings
     #[arg(long, value_name = "FORMAT", default_value = "pretty")]

@@ -14,6 +14,7 @@ use super::args::{Format, LimitsArg, LintArgs};
 use super::colour::Colour;
 use super::config::Config;
 use super::each::each;
+use super::files;
 use super::forms::{self, FormFile};
 use super::poll;
 use super::report::{Reporter, count};
@@ -32,6 +33,15 @@ pub struct Linted {
 
 /// Shows every finding of every form; with --watch, again whenever a form changes.
 pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
+    if let Some(job) = args.job.as_deref().filter(|_| !args.unsafe_fixes || args.forms.is_empty()) {
+        let name = files::name(job);
+        let form = args.forms.first().map_or("FORM".to_owned(), |form| files::name(form));
+        return Err(format!(
+            "error: --job is only used with --unsafe-fixes and a form: `postform lint --unsafe-fixes --job {name} {form}` shows \
+             how the fixes change the program of the job\n  help: `postform check {name}` checks the job; `postform verify \
+             {name} --form {form}` prints the job with the form and proves the program"
+        ));
+    }
     if args.watch { poll::repeat(|| inputs(args), || report(args, colour)) } else { report(args, colour) }
 }
 

@@ -144,10 +144,10 @@ impl Hunt {
         let end = case.end();
         let End::Printed(program, proof, _) = &end else {
             self.tally.count("wrong forms", end.name().split(' ').next().unwrap_or(""));
-            return match end {
-                End::Panicked => self.found(case, "wrong", "panic", &mut |end, _| matches!(end, End::Panicked)),
-                _ => {}
-            };
+            if let End::Panicked = end {
+                self.found(case, "wrong", "panic", &mut |end, _| matches!(end, End::Panicked));
+            }
+            return;
         };
         let name = proof.name();
         let verdict = name.split(' ').next().unwrap_or("").to_owned();

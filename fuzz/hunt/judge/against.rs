@@ -78,9 +78,7 @@ impl Judge<'_> {
                 {
                     *left -= 1;
                     made.take();
-                    if made.follow(&wants[number + 1..], left).is_none() {
-                        return None;
-                    }
+                    made.follow(&wants[number + 1..], left)?;
                 }
             }
         }

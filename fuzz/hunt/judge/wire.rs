@@ -135,7 +135,8 @@ impl Wire {
         }
         let centre = [b'I', b'J'].map(get);
         let named = b"XYUV".iter().any(|letter| get(*letter).is_some());
-        if !named && !(centre.iter().any(Option::is_some) && matches!(self.motion, 2.0 | 3.0)) {
+        let arcs = centre.iter().any(Option::is_some) && matches!(self.motion, 2.0 | 3.0);
+        if !named && !arcs {
             return Ok(());
         }
         if self.motion != 0.0 && self.state.feed.0.is_nan() {

@@ -152,6 +152,9 @@ impl Reader<'_> {
         if let Some(words) = &file.words.everywhere {
             traits.everywhere = self.words(words)?;
         }
+        if let Some(letters) = &file.numbers.no_point {
+            traits.no_point = self.words(letters)?;
+        }
         if let Some(letter) = &file.words.work {
             traits.work_letter = Some(self.letter(letter)?);
         }

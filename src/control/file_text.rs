@@ -119,12 +119,13 @@ pub(super) struct Blocks {
     pub(super) one_m: Option<bool>,
 }
 
-/// `[numbers]`: the meaning of a length or a feed without a decimal point.
+/// `[numbers]`: the meaning of a length or a feed without a decimal point, and the letters that take no decimal point.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Numbers {
     pub(super) length_without_point: Option<WithoutPoint>,
     pub(super) feed_without_point: Option<FeedWithoutPoint>,
+    pub(super) no_point: Option<Spanned<String>>,
 }
 
 /// `[start]`: whether modes that a program leaves active are still active in the next program, and the machine's units.

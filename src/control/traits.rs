@@ -188,6 +188,8 @@ pub struct Traits {
     pub without_point: WithoutPoint,
     /// The unit of a feed without a decimal point.
     pub feed_without_point: FeedWithoutPoint,
+    /// The letters whose numbers have no decimal point: the control stops at `M3.`; empty: not public, or none.
+    pub no_point: Words,
     /// The macro language.
     pub macros: Macros,
     /// Whether a semicolon ends the block, and is not the begin of a comment.

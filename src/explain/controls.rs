@@ -89,6 +89,8 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     ];
     if traits.rules == Rules::Fanuc {
         facts.extend(facts_of_fanuc(traits).map(|(name, fact)| (name, fact.to_owned())));
+        let no_point = letters(traits.no_point);
+        facts.push(("letters that take no decimal point", if no_point.is_empty() { UNKNOWN.into() } else { no_point }));
     }
     facts
 }
@@ -281,6 +283,7 @@ like = \"{name}\"
 # [numbers]
 # length_without_point = \"units\"   # units: X10 is 10 mm; least-increment: X10 is 0.01 mm
 # feed_without_point = \"units\"     # units: F10 is 10 mm/min; whole-mm: not with inches; least-increment: as lengths
+# no_point = \"MST\"                 # letters whose numbers have no decimal point: the control stops at M3.
 # [start]
 # modes = \"kept\"                   # a G91 or G20 of the previous program is kept or lost
 # units = \"mm\"                     # Siemens: the machine's basic units, inch or mm; feeds have them after G70 and G71

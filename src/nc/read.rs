@@ -2,6 +2,7 @@
 
 use super::block::Block;
 use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
+use super::digits::Number;
 use super::expression::Reader;
 use super::fault::{Done, Fault, quoted, refuse, twice};
 use super::flow::Flow;
@@ -28,7 +29,7 @@ impl Block {
             stream.skip_blanks();
             if let Some((letter, number, start)) = stream.word() {
                 check_case(line, start, control)?;
-                self.word(letter, number.value, !number.point, start, control)?;
+                self.number(letter, number, start, control)?;
                 continue;
             }
             let Some(token) = stream.next() else { break };
@@ -54,7 +55,7 @@ impl Block {
                     return Ok(());
                 }
                 Kind::Word(letter, number) => {
-                    self.word(letter, number.value, !number.point, token.start, control)?;
+                    self.number(letter, number, token.start, control)?;
                 }
                 Kind::Blank => {}
                 Kind::LineEnd if line[token.start] == b'\r' && token.end == token.start + 1 => {}
@@ -88,7 +89,7 @@ impl Block {
             match token.kind {
                 Kind::LineEnd => break,
                 Kind::Word(letter, number) => {
-                    self.word(letter, number.value, !number.point, token.start, control)?;
+                    self.number(letter, number, token.start, control)?;
                 }
                 Kind::Letter(b'O') => {
                     let name = match reader.next() {
@@ -182,6 +183,15 @@ impl Block {
             _ => return unreadable(line, start, end),
         }
         Ok(())
+    }
+
+    /// Adds a word whose value is a number as written, without an expression.
+    #[inline]
+    fn number(&mut self, letter: u8, number: Number, column: usize, control: &'static Control) -> Done {
+        if number.point && control.traits().no_point.has(letter) {
+            return Err(with_point(letter, number.value, column));
+        }
+        self.word(letter, number.value, !number.point, column, control)
     }
 
     #[inline]
@@ -434,4 +444,17 @@ fn after_end<T>(line: &[u8], start: usize, end: usize, control: &'static Control
 #[cold]
 fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
     Err(Fault::unreadable(line, start, &quoted(line, start, end)))
+}
+
+/// The error for a decimal point where the control takes whole numbers.
+#[cold]
+fn with_point(letter: u8, value: f64, column: usize) -> Box<Fault> {
+    let letter = char::from(letter);
+    let message = format!("{letter}{value} has a decimal point, but the control takes {letter} only without one");
+    let help = format!(
+        "write {letter}{} without a point; if a parameter of the control allows the point, leave {letter} out of `no_point` \
+         under [numbers] in a control file",
+        value.round()
+    );
+    Fault::at(Code::PN018, column, message, help)
 }

@@ -321,6 +321,23 @@ fn words_that_no_code_reads_are_refused() {
     }
 }
 
+/// A Fanuc stops at a decimal point in D, H, M, S and T. An expression may have one, and so may the letters that a control
+/// file leaves out. Of other controls it is not public, or they accept the point.
+#[test]
+fn whole_numbers_have_no_decimal_point() {
+    for word in ["S3000.", "S3000.0", "M3.", "T2.", "G43 H1."] {
+        let program = format!("{START}{word}\nM30\n");
+        assert_eq!(refused(control("fanuc"), &program).0, "PN018", "{word}");
+        assert!(!motions(control("haas"), &program).is_empty() && !motions(control("linuxcnc"), &program).is_empty());
+    }
+    assert_eq!(refused(control("fanuc-lathe"), "G21 G99\nT0101\nG97 S500. M3\nM30\n").0, "PN018");
+    assert!(!motions(control("fanuc"), &format!("{START}#1=3000.\nS#1 M[3.]\nG54.1 P1\nM30\n")).is_empty());
+    let own = "name = \"own\"\ntitle = \"with a point in S\"\nlike = \"fanuc\"\n[numbers]\nno_point = \"DHMT\"\n";
+    let own: &'static Control = Box::leak(Box::new(Control::read("own.toml", own).unwrap()));
+    assert!(!motions(own, &format!("{START}S3000.\nM30\n")).is_empty());
+    assert_eq!(refused(own, &format!("{START}M3.\nM30\n")).0, "PN018");
+}
+
 /// K is the number of fine bores in G17. In another plane, K may be the shift of the tool.
 #[test]
 fn the_repeats_of_a_fine_bore() {

@@ -519,7 +519,7 @@ fn coolant_of_the_form_is_checked() {
     let form = crate::support::root().join("postforms/haas.pf").display().to_string();
     folder.write("air.json", AIR);
     for (kinds, found) in [("\"flood\"", true), ("\"flood\", \"air\"", false)] {
-        folder.write("vf2.toml", &format!("control = \"haas\"\n[coolant]\nkinds = [{kinds}]\n"));
+        folder.write("vf2.toml", format!("control = \"haas\"\n[coolant]\nkinds = [{kinds}]\n"));
         for command in ["render", "verify"] {
             let done = folder.run(&[command, "air.json", "--form", &form, "--machine", "vf2.toml"]);
             let text = out(&done) + &err(&done);

@@ -984,11 +984,11 @@ fn a_rigid_tap_of_a_fanuc_needs_m29_or_a_control_file() {
     folder.write("my-fanuc.toml", file);
     let form = plain_post("fanuc.pf").replace("M29 S[speed]\n", "").replace("Tap 2\n", "Tap 1\n");
     folder.write("alone.pf", &form);
-    folder.write("own.pf", &form.replace("Control fanuc", "Control my-fanuc.toml"));
-    folder.write("floats.pf", &form.replace("RigidTap? Y", "RigidTap? N"));
+    folder.write("own.pf", form.replace("Control fanuc", "Control my-fanuc.toml"));
+    folder.write("floats.pf", form.replace("RigidTap? Y", "RigidTap? N"));
     let path = r#"{"rapid":[0,0,20]},{"cycle":{"kind":"tap","rigid":true,"depth":10,"clear":5,"feed":1000,"points":[[0,0,0]]}},{"rapid":[0,0,20]}"#;
-    folder.write("rigid.json", &one(path));
-    folder.write("silent.json", &one(&path.replace(r#""rigid":true,"#, "")));
+    folder.write("rigid.json", one(path));
+    folder.write("silent.json", one(&path.replace(r#""rigid":true,"#, "")));
     let said = |form: &str, job: &str| {
         let lint = out(&folder.run(&["lint", form]));
         let verify = folder.run(&["verify", job, "--form", form]);

@@ -212,7 +212,8 @@ impl Hunt {
         if moves.iter().any(|one| one.speed.0.is_nan()) {
             return;
         }
-        let mixed = inch && seed.is_multiple_of(3);
+        // in millimetres, a surface speed has decimals, and a Fanuc refuses a decimal point in S
+        let mixed = inch && seed.is_multiple_of(3) && control == "haas-lathe";
         let flat = unrolled(&moves, inch, inch && !mixed);
         let said = compared(text, &flat, settings(control, inch));
         let verdict = match &said {

@@ -332,3 +332,18 @@ fn a_tool_comes_down_over_a_cut_that_begins_at_its_depth() {
         }
     }
 }
+
+/// A rapid straight down may give the angle of a rotary axis again, for example after a change of the work offset.
+#[test]
+fn an_angle_may_be_given_again_on_the_way_down_to_a_cut() {
+    let form = fs::read_to_string(root().join("postforms/haas-4axis.pf")).unwrap();
+    let post = Post::compile(Source::from_text("haas-4axis.pf", form), &NoFiles).unwrap();
+    let job = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":2200,"direction":"cw"},"feed":964,"path":[{"rapid":[0,0,20,-265]},{"work":56},{"rapid":[-60,50,30]},{"line":[-90,50,30]}]}]}"#;
+    let program = printed(&post, job);
+    let right = ["G56 A-265.\n", "Z30.\n"];
+    assert!(right.iter().all(|block| program.contains(block)), "{program}");
+    let later = program.replacen(right[0], "G56\n", 1).replacen(right[1], "Z30. A-265.\n", 1);
+    let verdict = post.verify(Job::json(job), &later).unwrap();
+    assert!(matches!(verdict, Verdict::Equivalent(_) | Verdict::Identical), "{verdict:?}");
+}

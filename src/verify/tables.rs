@@ -53,8 +53,9 @@ pub fn tolerances() -> Vec<[String; 2]> {
         row(
             "peck",
             format!(
-                "up to {LONGER} times the job's longest peck; the same limit applies to the depth that is cut before \
-                 the tool retracts out of the hole; a last peck below {} % of the longest may be left out",
+                "up to {LONGER} times the job's longest peck; the depth that is cut between two retracts out of the \
+                 hole: up to {LONGER} times the greatest such depth in the job; if the job's last peck is shorter than \
+                 {} % of its longest peck, the program may leave it out",
                 LEFT * 100.0
             ),
         ),

@@ -408,7 +408,12 @@ fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) ->
         Some(why) => not_run(name, &why, column),
         None => {
             let message = format!("G{value} is not a code of this control ({})", control.name());
-            Err(Fault::at(Code::PN003, column, message, "check the code, or choose another `--control`"))
+            Err(Fault::at(
+                Code::PN003,
+                column,
+                message,
+                "check the code, or name the control of the program: `--control`, for a job `--job-control`",
+            ))
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod align;
 mod arcs;
+mod arrival;
 mod begin;
 mod beside;
 mod calls;

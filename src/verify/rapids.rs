@@ -1,6 +1,7 @@
 //! Compares the paths between cuts. The program's path may be higher than the job's path, but not lower, and may not go
 //! to other positions.
 
+use super::arrival::arrives_at_depth;
 use super::beside::{Compensated, Mark};
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, is_length, number, same, shown};
 use super::idle;
@@ -10,7 +11,7 @@ use super::passage::{Entry, Frame, Leg, Passage};
 use super::rapid_path::{turn_alike, turned_low};
 use super::sides::Sides;
 use super::tails::leaves_low;
-use super::ways::{Compared, Low, are_the_same, arrives_at_depth, compare as compare_way, enters_hole, leaves_hole};
+use super::ways::{Compared, Low, are_the_same, compare as compare_way, enters_hole, leaves_hole};
 use crate::diag::Code;
 use crate::lang::Machine;
 

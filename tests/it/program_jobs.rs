@@ -186,9 +186,9 @@ fn a_stop_at_home_stays_at_home() {
         (format!("G4 P1000\nM1\n{next}"), &["G4 P1.", "M1", "M9", "G0 G53 Z0 M5", "T2 M6"]),
         ("M0\n".to_owned(), &["M0", "M9", "G0 G53 Z0 M5", "G53 Y0", "M30"]),
         // across at the highest Z of the program, and then down
-        (format!("M1\n{go_on}"), &["M1", "S1000 M3", "X4. Y5. Z3.", "Z1.", "G1 Z-.3 F6."]),
+        (format!("M1\n{go_on}"), &["M1", "S1000 M3", "G0 X4. Y5.", "Z3.", "Z1.", "G1 Z-.3 F6."]),
         // between the two stops, the tool moves across at home
-        (across.to_owned(), &["M0", "M5", "X4. Y5.", "M1", "S1000 M3", "Z3.", "Z1.", "G1 Z-.3 F6."]),
+        (across.to_owned(), &["M0", "M5", "X4. Y5.", "M1", "S1000 M3", "G0 X4. Y5.", "Z3.", "Z1.", "G1 Z-.3 F6."]),
     ] {
         let (text, warnings) = printed(&format!("{HEAD}{cut}{after}M30\n")).unwrap();
         let all: Vec<&str> = text.lines().map(|line| line.split_once(' ').map_or(line, |(_, rest)| rest)).collect();
@@ -206,6 +206,22 @@ fn a_stop_at_home_stays_at_home() {
     assert!(verdict(&old).is_proven(), "{:?}", verdict(&old));
     let Verdict::Different(findings) = verdict(&swapped) else { panic!("{:?}", verdict(&swapped)) };
     assert_eq!(findings[0].code.name(), "PV019");
+}
+
+/// A tool that goes on in another work offset begins at the position of its first rapid there. The position in the work
+/// offset before is another position, although the numbers are known: with and without a move home.
+#[test]
+fn a_tool_goes_on_in_another_work_offset_at_its_own_position() {
+    let cut = "G0 Z1.\nG1 Z-.1 F5.\nX4. Y7.\nG0 Z3.\n";
+    for home in ["", "G91 G28 Z0\nG90\n", "G0 G53 Z0\n"] {
+        for next in ["G55 X1. Y2.\nG43 H1 Z.5\nG1 Z-.2\n", "G55\nX1. Y7.\nG43 H1 Z.5\nG1 Z-.2\n"] {
+            let (text, _) = printed(&format!("{HEAD}{cut}{home}{next}M30\n")).unwrap();
+            let all: Vec<&str> = text.lines().map(|line| line.split_once(' ').map_or(line, |(_, rest)| rest)).collect();
+            let at = all.iter().position(|line| line.starts_with("G55")).unwrap();
+            let first = if next.contains("Y2.") { "G55 X1. Y2." } else { "G55 X1. Y7." };
+            assert_eq!(all[at..][..4], [first, "Z3.", "Z.5", "G1 Z-.2"], "{home}{next}{text}");
+        }
+    }
 }
 
 #[test]

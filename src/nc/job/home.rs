@@ -17,19 +17,24 @@ impl Reader<'_> {
         (self.known & 0b011 == 0b011).then(|| [self.at[0], self.at[1]])
     }
 
-    /// Moves the tool from the reference point to the highest Z of the program, above the position `to`. If the job does
-    /// not contain the move home, the tool first moves up to this height and then across.
+    /// Moves the tool from the reference point to the highest Z of the program, above the position `to`. If the position of
+    /// the tool is known in the job, the tool first moves up to this height and then across.
     pub(super) fn move_above(&mut self, home: AtHome, to: Axes) -> Done {
         let message = "between the moves of a tool, the reference point becomes the highest Z of the program";
         self.warn_once(home.line, message, "check that the tool clears the clamps at this height");
         let mut above = to;
         above.values[2] = self.survey.top;
-        // after a move home, the job must give all axes
-        let up = if home.is_said { above } else { Axes { given: 0b100, ..above } };
+        // after a move home, the position is unknown. In another work offset, X and Y of the old offset are another position
+        if home.is_said || self.said.work != self.wanted.work {
+            self.move_begins(First::Rapid(above))?;
+            self.step();
+            return self.push(Event::Rapid(above));
+        }
+        let up = Axes { given: 0b100, ..above };
         self.move_begins(First::Rapid(up))?;
         self.step();
         self.push(Event::Rapid(up))?;
-        if home.is_said { Ok(()) } else { self.push(Event::Rapid(Axes { given: to.given & !0b100, ..above })) }
+        self.push(Event::Rapid(Axes { given: to.given & !0b100, ..above }))
     }
 
     /// Adds the move home before a stop or a dwell, because the operator expects the tool there.

@@ -84,7 +84,7 @@ fn nothing_crosses_the_part_before_the_way_home() {
         r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"home":true},{"rapid":[10,10,25]},{"line":[10,10,-1]},{"rapid":[10,10,25]}"#,
     );
     assert_eq!(after("linuxcnc.pf", &home, &[]), "identical");
-    let swapped = ("G0 G53 Z0\nX10. Y10. Z25.\n", "X10. Y10.\nG0 G53 Z0\nG0 Z25.\n");
+    let swapped = ("G0 G53 Z0\nG0 X10. Y10.\nZ25.\n", "X10. Y10.\nG0 G53 Z0\nG0 Z25.\n");
     assert_eq!(after("linuxcnc.pf", &home, &[swapped]), "PV001 1");
 }
 

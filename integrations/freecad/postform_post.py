@@ -210,7 +210,7 @@ if hasattr(PostProcessor, "export2"):
                 self.apply_configuration_bundle()
             try:
                 options_without_effect(self._machine)
-                given, rest = arguments(self.values["ARGUMENTS"] or "", self.values["FORM"], self.values["POSTFORM"])
+                given, rest = arguments(self.values["ARGUMENTS"] or "", self.values["FORM"] or "", self.values["POSTFORM"])
                 if not any(word.split("=")[0] in ("-u", "--units") for word in rest):
                     inch = getattr(self.values["OUTPUT_UNITS"], "value", "") == "imperial"
                     rest = ["--units", "inch" if inch else "mm"] + rest

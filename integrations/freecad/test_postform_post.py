@@ -357,6 +357,7 @@ class Machines(unittest.TestCase):
 
     def test_what_a_machine_must_give(self):
         self.assertIn("the machine has no form", self.refused(lambda chosen: chosen.postprocessor_properties.pop("form")))
+        self.assertIn("the machine has no form", self.refused(lambda chosen: chosen.postprocessor_properties.update(form=None)))
         self.assertIn("take --form", self.refused(lambda chosen: None, arguments="--form other.pf"))
         self.assertIn("there is no form gone.pf", self.refused(lambda chosen: None, form="gone.pf"))
 

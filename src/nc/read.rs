@@ -455,7 +455,8 @@ fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
 #[cold]
 fn with_point(letter: u8, value: f64, column: usize) -> Box<Fault> {
     let letter = char::from(letter);
-    let message = format!("{letter}{value} has a decimal point, but the control takes {letter} only without one");
+    let message =
+        format!("the number of {letter} has a decimal point, but the control takes {letter} only without one");
     let help = format!(
         "write {letter}{} without a point; if a parameter of the control allows the point, leave {letter} out of `no_point` \
          under [numbers] in a control file",

@@ -295,6 +295,17 @@ class Machines(unittest.TestCase):
         chosen = chosen or machines.machine(form=FORM, postform=POSTFORM)
         return machines.generated(self.post.Postform(document(name)), chosen, **overrides)
 
+    def by_form(self, change, **overrides):
+        """The program of a machine with a changed form."""
+        with open(FORM, encoding="utf-8") as file:
+            text = file.read()
+        with tempfile.TemporaryDirectory() as folder:
+            template = os.path.join(folder, "changed.pf")
+            with open(template, "w", encoding="utf-8") as file:
+                file.write(change(text))
+            ((_, program),) = self.generated("holes-1.1", machines.machine(form=template, postform=POSTFORM), **overrides)
+        return program
+
     def refused(self, change, **overrides):
         """The reason why there is no program for a changed machine."""
         chosen = machines.machine(form=FORM, postform=POSTFORM)
@@ -335,13 +346,7 @@ class Machines(unittest.TestCase):
         self.assertEqual(processor.get_file_extension(), "ngc")
 
     def test_the_author_of_the_dialog_is_printed(self):
-        with tempfile.TemporaryDirectory() as folder:
-            template = os.path.join(folder, "author.pf")
-            with open(FORM, encoding="utf-8") as file:
-                text = file.read()
-            with open(template, "w", encoding="utf-8") as file:
-                file.write(text.replace("StartCode\n", "StartCode\n(BY [author])\n", 1))
-            ((_, program),) = self.generated("holes-1.1", machines.machine(form=template, postform=POSTFORM), job_author="A. Smith")
+        program = self.by_form(lambda text: text.replace("StartCode\n", "StartCode\n(BY [author])\n", 1), job_author="A. Smith")
         self.assertIn("(BY A. SMITH)", program)
 
     def test_options_that_would_change_the_moves_are_refused(self):
@@ -381,13 +386,7 @@ class Machines(unittest.TestCase):
         self.assertIn("has a Placement (X0 Y0 Z4)", str(refused.exception))
 
     def test_line_ends_are_those_of_freecad(self):
-        with tempfile.TemporaryDirectory() as folder:
-            template = os.path.join(folder, "crlf.pf")
-            with open(FORM, encoding="utf-8") as file:
-                text = file.read()
-            with open(template, "w", encoding="utf-8") as file:
-                file.write("LineEnd crlf\n" + text)
-            ((_, program),) = self.generated("holes-1.1", machines.machine(form=template, postform=POSTFORM))
+        program = self.by_form(lambda text: "LineEnd crlf\n" + text)
         self.assertNotIn("\r", program)
         self.assertIn("LineEnd", freecad.Console.warnings)
 

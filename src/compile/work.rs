@@ -92,8 +92,8 @@ impl WorkWords {
 
     /// The last number of `MoreWork`, if the number of this value of `[work]` is greater.
     pub fn beyond(&self, work: f64) -> Option<f64> {
-        let row = self.more.iter().rfind(|row| row.from <= work)?;
-        row.last.filter(|last| row.number + (work - row.from) > *last)
+        let (row, number) = self.row(work)?;
+        row.last.filter(|last| number > *last)
     }
 
     /// The identifier of the work offset that is printed: its code, its number, or the identifier of an additional offset.

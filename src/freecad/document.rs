@@ -115,6 +115,15 @@ impl Object {
         }
     }
 
+    /// The file in the archive with the object's path. `None`: the object has no path.
+    pub fn path(&self) -> Option<&str> {
+        match self.get("Path") {
+            Some(Value::Path(file)) => Some(file.as_str()),
+            _ => None,
+        }
+        .filter(|file| !file.is_empty())
+    }
+
     /// The texts in a property.
     pub fn texts(&self, name: &str) -> &[String] {
         match self.get(name) {

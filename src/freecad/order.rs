@@ -182,10 +182,7 @@ fn operations(document: &Document, job: &Job<'_>, report: &mut Report) -> Result
             Some(kind) => kind,
             None => operation(document, name, object, &label)?,
         };
-        let path = match object.get("Path") {
-            Some(Value::Path(file)) if !file.is_empty() && matches!(kind, Kind::Operation(..)) => Some(file.clone()),
-            _ => None,
-        };
+        let path = object.path().filter(|_| matches!(kind, Kind::Operation(..))).map(str::to_owned);
         steps.push(Step { label, kind, path });
     }
     if !inactive.is_empty() {

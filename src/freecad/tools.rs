@@ -60,10 +60,7 @@ impl Controller {
             return wrong(Code::PD004, format!("the tool controller {label} has no spindle speed"), help);
         }
         let feeds = ["HorizFeed", "VertFeed"].map(|name| object.number(name).unwrap_or(0.0));
-        let path = match object.get("Path") {
-            Some(Value::Path(file)) if !file.is_empty() => Some(file.clone()),
-            _ => None,
-        };
+        let path = object.path().map(str::to_owned);
         Ok(Controller { tool: tool(document, object, number), label, speed, turn, feeds, path })
     }
 
@@ -76,10 +73,11 @@ impl Controller {
         let path = archive.member(&self.path)?;
         command::each(self.path.as_deref().unwrap_or_default(), path, |_, command| {
             if let Command::Code(code, words) = command {
-                match code.to_string().as_str() {
-                    "M6" => changes = true,
-                    "M3" => (turn, speed) = (SpindleTurn::Cw, words.get(b'S').unwrap_or(0.0)),
-                    "M4" => (turn, speed) = (SpindleTurn::Ccw, words.get(b'S').unwrap_or(0.0)),
+                let given = words.get(b'S').unwrap_or(0.0);
+                match (code.letter, code.tenths) {
+                    (b'M', 60) => changes = true,
+                    (b'M', 30) => (turn, speed) = (SpindleTurn::Cw, given),
+                    (b'M', 40) => (turn, speed) = (SpindleTurn::Ccw, given),
                     _ => {}
                 }
             }
